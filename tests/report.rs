@@ -43,7 +43,8 @@ fn a_report_holds_values_and_plots_in_one_file() {
 #[test]
 fn a_report_of_a_hidden_effect_says_what_is_missing() {
     let (file, folder) = (sample("cantilever-friction"), tempfile::tempdir().unwrap());
-    let text = written(&["report"], &file, &folder.path().join("report.html"));
+    // As long as it takes, on a machine that is busy too.
+    let text = written(&["report", "--limit", "600"], &file, &folder.path().join("report.html"));
     assert!(text.contains("No sources were identified"), "the reason stands in the report");
     for wanted in ["Error map", "What is missing?", "Coulomb friction at DOF", "Ledger"] {
         assert!(text.contains(wanted), "{wanted}");
@@ -67,7 +68,7 @@ fn every_plot_is_drawn_without_a_window_and_its_values_are_csv() {
     let friction = sample("cantilever-friction");
     let svg = written(&["plot", "--what", "channel"], &friction, &folder.path().join("channel.svg"));
     assert!(svg.contains(">model<") && svg.contains(">measured<"), "keys to both");
-    assert!(svg.matches(" N<").count() > 1, "a key to every level of force");
+    assert!(svg.matches(" N (peak)<").count() > 1, "a key to every level of force");
     let force = written(&["plot", "--what", "restoring-force"], &friction, &folder.path().join("force.svg"));
     assert!(force.contains("Displacement") && force.contains("Velocity"), "two plots side by side");
     let table = written(&["plot", "--what", "restoring-force"], &friction, &folder.path().join("force.csv"));
@@ -154,7 +155,7 @@ fn says_where_its_model_stands(sample: &Path) {
     let control = dashpot::control::Control::unattended();
     // A search that takes long answers with the best so far, and the report says so.
     dashpot::session::time_limit::hurry_after(&control, std::time::Duration::from_secs(4));
-    dashpot::report::report(&file, &out, &control).unwrap();
+    dashpot::report::report(&file, &dashpot::report::Request::default(), &out, &control).unwrap();
     let text = std::fs::read_to_string(&out).unwrap();
     let name = file.display();
     for chapter in ["Measurements", "What is missing?", "Ledger", "Settings"] {
@@ -201,4 +202,124 @@ fn a_report_is_a_pdf_where_its_name_says_so() {
     assert!(pdf.starts_with(b"%PDF-1.") && pdf.len() > 100_000, "{} bytes, the face among them", pdf.len());
     let text = String::from_utf8_lossy(&pdf);
     assert!(text.contains("/FontFile2") && text.contains("/ToUnicode") && text.matches("/Type /Page\n").count() >= 2);
+}
+
+/// All files of a ZIP file by name.
+fn unpacked(path: &Path) -> Vec<(String, String)> {
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
+    let count = archive.len();
+    let read = |k: usize| {
+        let mut file = archive.by_index(k).unwrap();
+        (file.name().unwrap().into_owned(), std::io::read_to_string(&mut file).unwrap())
+    };
+    (0..count).map(read).collect()
+}
+
+/// A picture of one red point.
+const RED: &[u8] = &[
+    0x89, b'P', b'N', b'G', 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 0x0d, b'I', b'H', b'D', b'R', 0, 0, 0, 1, 0, 0, 0, 1, 8,
+    2, 0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 0x0c, b'I', b'D', b'A', b'T', 0x08, 0xd7, 0x63, 0xf8, 0xcf, 0xc0, 0,
+    0, 0x03, 0x01, 0x01, 0, 0x18, 0xdd, 0x8d, 0xb0, 0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82,
+];
+
+/// The sample in a folder of its own, with a table `[report]`.
+fn with_title_page(folder: &Path) -> PathBuf {
+    let from = sample("cantilever-harmonics");
+    for entry in std::fs::read_dir(from.parent().unwrap()).unwrap() {
+        let path = entry.unwrap().path();
+        std::fs::copy(&path, folder.join(path.file_name().unwrap())).unwrap();
+    }
+    std::fs::write(folder.join("red.png"), RED).unwrap();
+    let file = folder.join("project.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let table = "\n[report]\nobject = \"Beam 7 <spare>\"\ntester = \"A. Tester\"\norganisation = \"Works\"\nlogo = \"red.png\"\n";
+    std::fs::write(&file, text + table).unwrap();
+    file
+}
+
+#[test]
+fn a_report_can_be_signed_and_computed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = with_title_page(folder.path());
+    let arguments = ["report", "--tester", "B. Other", "--limit", "5"];
+    let text = written(&arguments, &file, &folder.path().join("report.html"));
+    for wanted in ["Beam 7 &lt;spare&gt;", "B. Other", "Works", "data:image/png,", "Signature", "Contents", "Summary"] {
+        assert!(text.contains(wanted), "{wanted}");
+    }
+    assert!(!text.contains("A. Tester"), "the command line goes before the project");
+    for reference in ["Lawson", "Prandina", "Methods and references", "ChaCha8", "SHA-256", "Time limit of the search"]
+    {
+        assert!(text.contains(reference), "{reference}");
+    }
+    let bytes = std::fs::metadata(&file).unwrap().len();
+    assert!(text.contains(&format!("<td>project.toml</td><td class=\"n\">{bytes}</td>")), "the project file itself");
+    let (tables, figures) = (text.matches("<caption>Table ").count(), text.matches("<figcaption>Figure ").count());
+    let all = unpacked(&folder.path().join("report-tables.zip"));
+    let of = |kind: &str| all.iter().filter(|(name, _)| name.starts_with(kind)).count();
+    assert_eq!([of("table-"), of("figure-")], [tables, figures], "every table and figure of {tables} and {figures}");
+    assert!(all.iter().all(|(name, text)| text.lines().count() > 1 && text.contains(',') && name.ends_with(".csv")));
+    assert!(all.iter().any(|(name, _)| name == "values-identified.csv"));
+}
+
+#[test]
+fn only_the_chosen_sections_are_written() {
+    let (file, folder) = (sample("cantilever-harmonics"), tempfile::tempdir().unwrap());
+    let out = folder.path().join("report.html");
+    let text = written(&["report", "--sections", "ratios,measurements", "--no-tables"], &file, &out);
+    let chapters: Vec<&str> = text.split("<h2>").skip(1).filter_map(|rest| rest.split("</h2>").next()).collect();
+    assert_eq!(chapters, ["Measurements", "Damping ratios"], "in the order of the report");
+    assert!(!folder.path().join("report-tables.zip").exists());
+    let refused = dashpot(&["report", "--sections", "ratios,colours"], &file, &out);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("colours") && said.contains("next-test"), "{said}");
+    let refused = dashpot(&["report", "--logo", "no.png"], &file, &out);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.status.code() == Some(1) && said.starts_with("no.png: the logo cannot be read"), "{said}");
+}
+
+#[test]
+fn a_search_that_is_cut_short_is_said_to_be() {
+    let (file, folder) = (sample("cantilever-friction"), tempfile::tempdir().unwrap());
+    let text = written(&["report", "--limit", "0.01"], &file, &folder.path().join("report.html"));
+    assert!(text.contains("The search was ended at its time limit."), "on the title page");
+    assert!(text.contains("The search was ended before its time"), "and where its result is");
+}
+
+/// Words of a plot: axes, keys and numbers.
+fn words_of(svg: &str) -> Vec<String> {
+    let pieces = svg.split("<text").skip(1).filter_map(|piece| piece.split_once('>')?.1.split_once("</text>"));
+    pieces.map(|(words, _)| words.to_owned()).collect()
+}
+
+/// Amplitudes of sines say that they are peak values, on every axis and key; values at an instant do not.
+#[test]
+fn every_axis_of_amplitudes_says_peak() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("plot.svg");
+    let names = ["Amplitude", "Force", "Moment", "Acceleration", "Velocity", "Displacement", "Rotation"];
+    let instants = ["record", "hysteresis", "period", "loop"];
+    let mut told = 0;
+    for (project, kinds) in [
+        (
+            "cantilever-case-1",
+            &["angle", "energy", "bode", "nyquist", "spectrum", "record", "hysteresis", "period"][..],
+        ),
+        ("cantilever-friction", &["overview", "channel", "level", "loop"]),
+        ("decay-friction", &["spectrum", "amplitude", "record"]),
+    ] {
+        for kind in kinds {
+            let svg = written(&["plot", "--what", kind], &sample(project), &out);
+            for words in words_of(&svg) {
+                let axis = words.contains(", ") && names.iter().any(|name| words.starts_with(name));
+                let level = words.strip_suffix(" N").is_some_and(|number| number.parse::<f64>().is_ok());
+                assert!(!level, "{project}, {kind}: {words}");
+                told += usize::from(words.contains("(peak)"));
+                if axis {
+                    assert_eq!(words.contains("(peak)"), !instants.contains(kind), "{project}, {kind}: {words}");
+                }
+            }
+        }
+    }
+    assert!(told >= 6, "{told} axes and keys");
 }

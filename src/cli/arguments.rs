@@ -2,6 +2,7 @@
 
 use super::argument_values::{format, fraction, harmonics, noise, paper, positive, seconds};
 use super::arguments_import::Import;
+use super::arguments_report::Report;
 use crate::exchange::export::Format;
 use crate::response::frequency_response::Quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -234,15 +235,6 @@ pub(super) struct Export {
     #[arg(long, value_parser = format())]
     pub to: Format,
     /// File to write; formats that need several put the others beside it
-    #[arg(long)]
-    pub out: PathBuf,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct Report {
-    /// Project file
-    pub file: PathBuf,
-    /// File to write: .html, or .pdf
     #[arg(long)]
     pub out: PathBuf,
 }

@@ -5,6 +5,7 @@
 mod argument_values;
 mod arguments;
 mod arguments_import;
+mod arguments_report;
 mod build;
 mod change;
 mod channel_faults;

@@ -3,7 +3,7 @@
 use super::format::{self, in_words};
 use super::words;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::result::{NextTest, TestKind, Verdict};
+use crate::diagnosis::result::{Added, NextTest, TestKind, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::scatter::{Estimated, Scatter};
@@ -142,6 +142,18 @@ pub fn sentence_of(diagnosis: &Diagnosis, [before, noise_floor]: [f64; 2]) -> St
     }
 }
 
+/// A sentence of the evidence for `added` as it is read: values in the units that are shown.
+pub fn evidence(sentence: &str, added: &Added) -> String {
+    const FITTED: &str = "Fitted on the response: ";
+    if !sentence.starts_with(FITTED) {
+        return format::polished(sentence);
+    }
+    let parameters = added.source.effect.parameters().iter().zip(&added.source.parameters).zip(&added.deviations);
+    let said = parameters
+        .map(|((p, value), deviation)| format!("{} = {}", p.name, format::with_deviation(*value, *deviation, p.unit)));
+    format!("{FITTED}{}.", said.collect::<Vec<_>>().join(", "))
+}
+
 /// What a correction corrects; `known` are the sources that act in the model, in the order of the project.
 pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingParameter) -> String {
     match parameter {
@@ -192,8 +204,10 @@ pub fn change(correction: &Correction) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::{Estimated, Scatter, spread_of_runs};
+    use super::{Added, Estimated, Scatter, evidence, spread_of_runs};
     use crate::diagnosis::updating::scatter::RunScatter;
+    use crate::display::units::{Force, Frequency, Units, choose};
+    use crate::effects::{Effect, Place, Source};
 
     fn scatter(shifts: &[f64], deviation: f64) -> Scatter {
         let still = Estimated { value: 0.0, deviation: 1.0 };
@@ -212,5 +226,19 @@ mod tests {
         assert_eq!((spread.run, spread.most), (2, 5e-4));
         assert!((spread.shift - (0.44e-6_f64 / 6.0).sqrt()).abs() < 1e-12, "{}", spread.shift);
         assert_eq!(spread_of_runs(&scatter(&shifts[..2], 1e-6)), None, "two runs are no scatter");
+    }
+
+    #[test]
+    fn evidence_is_told_in_the_units_that_are_shown() {
+        let source = Source::known(Effect::Coulomb, Place::Dofs(vec![0]), &[2.0]);
+        let added = Added { source, deviations: vec![0.1] };
+        let sentence = "Fitted on the response: force = 2.00 +- 0.10 N.";
+        assert_eq!(evidence(sentence, &added), "Fitted on the response: force = 2.00 ± 0.10 N.");
+        choose(Units { force: Force::PoundForce, frequency: Frequency::Hertz, ..Units::default() });
+        let shown = evidence(sentence, &added);
+        choose(Units::default());
+        // 1 lbf = 4.4482216 N.
+        assert_eq!(shown, "Fitted on the response: force = 0.450 ± 0.022 lbf.");
+        assert_eq!(evidence("Noise -2 of it.", &added), "Noise −2 of it.");
     }
 }

@@ -78,6 +78,26 @@ impl Damping {
         }
     }
 
+    /// Name without its symbol, and unit.
+    pub fn title(self) -> [&'static str; 2] {
+        match self {
+            Self::Ratio => ["Damping ratio", "%"],
+            Self::Quality => ["Quality factor", ""],
+            Self::LossFactor => ["Loss factor", "%"],
+            Self::Decrement => ["Log. decrement", ""],
+        }
+    }
+
+    /// Symbol and unit.
+    pub fn symbol(self) -> [&'static str; 2] {
+        match self {
+            Self::Ratio => ["ζ", "%"],
+            Self::Quality => ["Q", ""],
+            Self::LossFactor => ["η", "%"],
+            Self::Decrement => ["δ", ""],
+        }
+    }
+
     /// The measure of a damping ratio and its standard deviation, to first order.
     pub fn of(self, ratio: f64, deviation: f64) -> [f64; 2] {
         let rest = 1.0 - ratio * ratio;

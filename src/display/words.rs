@@ -45,6 +45,11 @@ pub fn noise(run: &Run) -> String {
     if run.noise_ratio > 0.0 { format::percent(run.noise_ratio) } else { "–".to_owned() }
 }
 
+/// The name of an amplitude of a sine, or of something that is measured by one: all of them are peak values here.
+pub fn peak(name: &str) -> String {
+    format!("{name} (peak)")
+}
+
 /// A quantity with its SI unit, for an axis.
 pub fn axis(quantity: Quantity, rotation: bool) -> &'static str {
     match (quantity, rotation) {

@@ -4,6 +4,7 @@ use super::figure::{Axis, Figure, Look, Scale, Ticks};
 use super::style::Palette;
 use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::ModeCurve;
+use crate::display::units::{self, Damping};
 use crate::display::{format, words};
 use crate::measurement::Quantity;
 
@@ -16,6 +17,9 @@ const WIDE: f64 = 2.0;
 /// Slopes of `ln zeta` over `ln A` of laws, as guides: dry friction, viscous damping, microslip (between these two: `chi + 1`), drag.
 const SLOPES: [(f64, &str); 4] =
     [(-1.0, "dry friction, slope -1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
+/// The same of `ln Q`, which falls where the damping ratio rises.
+const SLOPES_OF_QUALITY: [(f64, &str); 4] =
+    [(1.0, "dry friction, slope 1"), (0.0, "viscous, 0"), (-0.5, "microslip, -1/2"), (-1.0, "drag, -1")];
 
 /// The modes of a record whose curves say something.
 pub(crate) fn told(curves: &[ModeCurve]) -> Vec<&ModeCurve> {
@@ -40,18 +44,23 @@ pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figur
     let name = quantity.map_or("Amplitude", |q| words::axis(q, false));
     // Both figures share the axis of amplitude, so that it is of one kind.
     let wide = is_wide(&curve.measured);
-    let y = if ratio { Axis::new("Damping ratio", "%") } else { Axis::new("Frequency", "Hz") };
+    let measure = units::now().damping;
+    let [title_of_measure, unit] = measure.title();
+    let y = if ratio { Axis::new(title_of_measure, unit) } else { Axis::new("Frequency", "Hz") };
+    let damping = |p: &AmplitudePoint| measure.of(p.damping_ratio, p.damping_deviation);
     let points = |list: &[AmplitudePoint]| -> Vec<[f64; 2]> {
-        list.iter().map(|p| [p.amplitude, if ratio { 100.0 * p.damping_ratio } else { p.frequency_hz }]).collect()
+        list.iter().map(|p| [p.amplitude, if ratio { damping(p)[0] } else { p.frequency_hz }]).collect()
     };
-    let deviation = |p: &AmplitudePoint| if ratio { 100.0 * p.damping_deviation } else { p.frequency_deviation_hz };
-    let title = if ratio { "Damping ratio" } else { "Frequency" };
+    let deviation = |p: &AmplitudePoint| if ratio { damping(p)[1] } else { p.frequency_deviation_hz };
+    let title = if ratio { title_of_measure } else { "Frequency" };
     let logarithmic = |plain: Axis| Axis { scale: Scale::Log, ticks: Ticks::OneTwoFive, ..plain };
-    let x = if wide { logarithmic(Axis::of(name)) } else { Axis::of(name) };
+    let x = Axis::of(name).peak();
+    let x = if wide { logarithmic(x) } else { x };
     let mut figure = Figure::new(title, x, if wide && ratio { logarithmic(y) } else { y });
     figure.margin = 0.04;
     if wide && ratio {
-        for (slope, law) in SLOPES {
+        let slopes = if measure == Damping::Quality { SLOPES_OF_QUALITY } else { SLOPES };
+        for (slope, law) in slopes {
             figure = figure.points(law, palette.weak, Look::Dashed(1.0), guide(&points(&curve.measured), slope));
         }
     }

@@ -1,6 +1,6 @@
 //! An axis of a plot: what it shows, its unit, how values lie along it.
 
-use crate::display::units;
+use crate::display::{units, words};
 use std::sync::Arc;
 
 /// How values lie along an axis.
@@ -60,6 +60,13 @@ impl Axis {
     pub fn of(text: &str) -> Self {
         let (name, unit) = text.split_once(", ").unwrap_or((text, ""));
         Self::new(name, unit)
+    }
+
+    /// Of amplitudes of sines: its name says that they are peak values.
+    #[must_use]
+    pub fn peak(mut self) -> Self {
+        self.name = words::peak(&self.name);
+        self
     }
 
     /// In the units that are shown on the screen.

@@ -101,7 +101,7 @@ impl ChannelResponse<'_> {
             figure = figure.key("with the effect on trial", palette.ink, Look::Dashed(1.8));
         }
         for level in self.levels {
-            let name = format!("{} N", format::significant(level.force, 2));
+            let name = level.name();
             figure = figure.key(&name, self.colours(palette, level.force).model, Look::Line(3.0));
         }
         figure
@@ -154,7 +154,7 @@ impl ChannelResponse<'_> {
                 list.iter().filter_map(|s| Some([s.force, part.of(of(s)?)])).collect()
             };
             let trial = "with the effect on trial";
-            let mut figure = Figure::new(title(part), Axis::new("Force amplitude (peak)", "N"), y)
+            let mut figure = Figure::new(title(part), Axis::new("Force amplitude", "N").peak(), y)
                 .points("measured", palette.measured, Look::Line(1.2), points(&|s| Some(s.measured)))
                 .points("model", palette.model, Look::Line(1.8), points(&|s| Some(s.model)))
                 .points(trial, palette.missing, Look::Dashed(1.8), points(&|s| s.trial))

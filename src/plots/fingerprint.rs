@@ -37,8 +37,11 @@ pub(crate) fn figure(print: &Print, palette: &Palette) -> Figure {
     let axis = |name, unit| {
         if powers { Axis::log(name, unit).ticks(Ticks::OneTwoFive) } else { Axis::new(name, unit) }
     };
-    let x =
-        if print.against == Against::Amplitude { axis("Amplitude at the place", "m") } else { axis("Frequency", "Hz") };
+    let x = if print.against == Against::Amplitude {
+        axis("Amplitude at the place", "m").peak()
+    } else {
+        axis("Frequency", "Hz")
+    };
     let y = match print.measure {
         Measure::Damping => axis("Damping", "N·s/m"),
         Measure::Stiffness => axis("Stiffness", "N/m"),

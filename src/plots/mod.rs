@@ -31,6 +31,7 @@ pub(crate) mod spectrum;
 pub mod style;
 pub(crate) mod svg;
 pub mod tables;
+pub mod tables_of_model;
 pub mod ticks;
 pub(crate) mod trace;
 pub mod unsteady_record;

@@ -5,7 +5,6 @@ use super::figure::{Axis, Figure, Look, Ticks};
 use super::response_curve::{ForceLevel, force, levels};
 use super::samples::phase;
 use super::style::Palette;
-use crate::display::format;
 use crate::exchange::Project;
 use crate::measurement::Channel;
 use faer::c64;
@@ -44,7 +43,7 @@ fn runs_by_level(p: &Project) -> Vec<(String, Vec<usize>)> {
     let all: Vec<usize> = (0..p.runs.len()).collect();
     let labels: Option<Vec<i64>> = p.runs.iter().map(|r| r.level).collect();
     let Some(labels) = labels.filter(|labels| !labels.is_empty()) else {
-        let named = |level: ForceLevel| (format!("{} N", format::significant(level.force, 2)), level.runs);
+        let named = |level: ForceLevel| (level.name(), level.runs);
         return levels(p, &all).into_iter().map(named).collect();
     };
     let mut kinds = labels.clone();

@@ -70,7 +70,7 @@ impl RecordResidual {
     pub fn spectra(&self, palette: &Palette) -> Option<Figure> {
         let [measured, model, left] = self.spectra.as_ref()?.each_ref().map(|y| Data::Record(Arc::clone(y)));
         Some(
-            Figure::new("Spectra", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", &self.axis.unit))
+            Figure::new("Spectra", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", &self.axis.unit).peak())
                 // What is left of noise is the noise that was measured: it must not hide it.
                 .with("left", palette.missing, Look::Line(1.2), left)
                 .with("measured", palette.measured, Look::Line(1.2), measured)

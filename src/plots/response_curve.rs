@@ -2,6 +2,7 @@
 //! the run.
 
 use crate::control::Control;
+use crate::display::{format, units, words};
 use crate::effects::{Kind, Source};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
@@ -57,6 +58,14 @@ pub(crate) struct ForceLevel {
     pub force: f64,
     /// The runs.
     pub runs: Vec<usize>,
+}
+
+impl ForceLevel {
+    /// Its amplitude in words: `3.2 N (peak)`.
+    pub(crate) fn name(&self) -> String {
+        let (factor, unit) = units::shown("N");
+        words::peak(&format!("{} {unit}", format::significant(factor * self.force, 2)))
+    }
 }
 
 /// Ratio by which forces of one level may differ, as a natural logarithm.

@@ -118,14 +118,16 @@ impl Spectrogram {
             let x = plot.left() + plot.width() * ((rule.at - from) / (to - from)) as f32;
             tick(pos2(x, plot.bottom()), pos2(x, plot.bottom() + 4.0), Align2::CENTER_TOP, &rule.label);
         }
-        for rule in rules(&Axis::new("Frequency", "Hz"), [0.0, self.highest_hz], plot.height()) {
-            let y = plot.bottom() - plot.height() * (rule.at / self.highest_hz) as f32;
+        let frequency = Axis::new("Frequency", "Hz").displayed();
+        let highest = frequency.factor * self.highest_hz;
+        for rule in rules(&frequency, [0.0, highest], plot.height()) {
+            let y = plot.bottom() - plot.height() * (rule.at / highest) as f32;
             tick(pos2(plot.left(), y), pos2(plot.left() - 4.0, y), Align2::RIGHT_CENTER, &rule.label);
         }
         let below = pos2(plot.center().x, plot.bottom() + 34.0);
         drawing.words(below, Align2::CENTER_CENTER, "Time, s", size::SMALL, palette.ink);
         let above = pos2(plot.left() - 48.0, plot.top() - 10.0);
-        drawing.words(above, Align2::LEFT_CENTER, "Frequency, Hz", size::SMALL, palette.ink);
+        drawing.words(above, Align2::LEFT_CENTER, frequency.label(), size::SMALL, palette.ink);
     }
 
     /// The same as a table with tabs: a row a window, a column a frequency, dB.

@@ -15,7 +15,7 @@ pub(crate) fn figure(palette: &Palette, spectrum: &Arc<Pyramid>, fit: &ChannelFi
     let harmonics = fit.amplitudes.iter().enumerate();
     let points = harmonics.clone().map(|(h, y)| [(h + 1) as f64 * frequency, height(y).max(floor)]).collect();
     let deviations = harmonics.map(|(h, y)| if height(y) > floor { fit.deviation(h + 1) } else { 0.0 }).collect();
-    Figure::new("Spectrum", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", unit))
+    Figure::new("Spectrum", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", unit).peak())
         .with("measured", palette.measured, Look::Line(1.2), Data::Record(Arc::clone(spectrum)))
         .points("fitted harmonics", palette.model, Look::Rings(4.5), points)
         .deviation(deviations)

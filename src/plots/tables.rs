@@ -12,7 +12,7 @@ use crate::measurement::Run;
 use crate::session::states::Compared;
 use crate::structure::modes::Modes;
 
-fn table(head: &str, lines: impl Iterator<Item = String>) -> String {
+pub(super) fn table(head: &str, lines: impl Iterator<Item = String>) -> String {
     lines.fold(format!("{head}\n"), |text, line| text + &line + "\n")
 }
 

@@ -39,7 +39,7 @@ impl UnsteadyRecord {
 
     /// The amplitude spectrum through a Hann window; `None` of a record that is too short.
     pub fn over_frequency(&self, palette: &Palette, title: &str) -> Option<Figure> {
-        let y = Axis::log("Amplitude", &self.axis().unit);
+        let y = Axis::log("Amplitude", &self.axis().unit).peak();
         Some(figure(palette, title, [Axis::new("Frequency", "Hz"), y], self.spectrum.as_ref()?))
     }
 }

@@ -1,8 +1,9 @@
 //! Chapters of the model against the measurement: errors, error map, suggestions with their evidence, ledger, next test.
 
-use super::content::Content;
+use super::content::{Content, told_in_full};
 use super::figures::{figure, sheet};
 use super::page::Page;
+use super::section::Section;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::result::{Suggestion, Verdict};
@@ -19,8 +20,10 @@ use crate::plots::{fingerprint, restoring_force, samples};
 use crate::session::validation::{only_records, problem};
 use crate::structure::Structure;
 
+/// Suggestions in the table.
+const MOST_SUGGESTIONS: usize = 12;
 /// Suggestions that are told in full.
-const MOST_SUGGESTIONS: usize = 6;
+const MOST_TOLD: usize = 6;
 
 /// Adds them.
 pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control) {
@@ -31,17 +34,19 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
     if !only_records(content.project) {
         steady(page, content, control);
     }
-    page.chapter("What is missing?");
-    match &content.diagnosis {
-        Ok(found) => missing(page, content, found),
-        Err(reason) => page.sentence(reason),
+    if let Some(diagnosis) = &content.diagnosis {
+        page.chapter(Section::Missing, "What is missing?");
+        match diagnosis {
+            Ok(found) => missing(page, content, found),
+            Err(reason) => page.sentence(reason),
+        }
     }
     ledger(page, content);
 }
 
 /// The steady runs.
 fn steady(page: &mut Page, content: &Content<'_>, control: &Control) {
-    page.chapter("Model of the known sources against the measurement");
+    page.chapter(Section::Comparison, "Model of the known sources against the measurement");
     if let Some((_, taken)) = &content.with_identified {
         let structure = &content.project.structure;
         let names: Vec<String> = taken.iter().map(|s| words::title(structure, s)).collect();
@@ -66,7 +71,7 @@ fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control
     let grid = Grid::new(found, false);
     let errors = grid.cells.iter().flatten().flatten().map(|c| c.error);
     let scale = Scale::new(found.noise_floor, errors.fold(0.0, f64::max));
-    page.drawing(&grid.draw(&scale, "Error map, channels by runs", Palette::light()));
+    page.drawing(&grid.draw(&scale, "Error map, channels by runs", Palette::light()), &grid.table());
     let worst = Grid::new(found, true);
     let (Some(&run), Some(channel)) = (worst.runs.first(), worst.channels.first()) else { return };
     if channel != ENERGY {
@@ -114,7 +119,7 @@ fn missing(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     }
     corrections(page, content, found);
     suggestions(page, &content.project.structure, &found.suggestions);
-    for s in found.suggestions.iter().take(MOST_SUGGESTIONS) {
+    for s in told_in_full(found).take(MOST_TOLD) {
         evidence(page, content, s);
     }
     if let Some((_, force)) = content.forces.iter().find(|(source, _)| source.is_none()) {
@@ -135,7 +140,11 @@ fn corrections(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     let row = |c: &Correction| {
         vec![findings::corrected(&content.project.structure, &known, &c.parameter), findings::change(c)]
     };
-    page.table(&["What", "Correction|"], &found.corrections.iter().map(row).collect::<Vec<_>>());
+    page.table(
+        "Corrections of the model",
+        &["What", "Correction|"],
+        &found.corrections.iter().map(row).collect::<Vec<_>>(),
+    );
 }
 
 fn suggestions(page: &mut Page, structure: &Structure, list: &[Suggestion]) {
@@ -154,7 +163,11 @@ fn suggestions(page: &mut Page, structure: &Structure, list: &[Suggestion]) {
     };
     let rows: Vec<Vec<String>> = list.iter().take(MOST_SUGGESTIONS).map(row).collect();
     if !rows.is_empty() {
-        page.table(&["Suggestion", "Size", "Probability|", "Error with it|", "On left-out runs|"], &rows);
+        page.table(
+            "Suggestions",
+            &["Suggestion", "Size", "Probability|", "Error with it|", "On left-out runs|"],
+            &rows,
+        );
     }
 }
 
@@ -180,7 +193,7 @@ fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
 /// The missing force over displacement and velocity.
 fn missing_force(page: &mut Page, content: &Content<'_>, force: &RestoringForce) {
     let sheet = restoring_force::sheet(force, &content.project.structure, Palette::light());
-    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
+    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()), &restoring_force::table(force));
     page.remark(&format!("{}.", words::capital(&restoring_force::caption(force))));
 }
 
@@ -188,7 +201,7 @@ fn next_tests(page: &mut Page, content: &Content<'_>, found: &Diagnosis) {
     if matches!(found.verdict, Verdict::Adequate | Verdict::Detuned) || found.next_test.is_empty() {
         return;
     }
-    page.chapter("Next test");
+    page.chapter(Section::NextTest, "Next test");
     for test in &found.next_test {
         let what = findings::next_test(&content.project.structure, test);
         page.sentence(&format!("{}: {}.", words::capital(&what), polished(test.why.trim_end_matches('.'))));
@@ -201,7 +214,7 @@ fn ledger(page: &mut Page, content: &Content<'_>) {
     for row in &content.ledger {
         rows.push(vec![row.label.clone(), in_words(row.error), format::percent(row.noise_floor)]);
     }
-    if let Ok(found) = &content.diagnosis {
+    if let Some(Ok(found)) = &content.diagnosis {
         let structure = &content.project.structure;
         for step in found.steps.iter().skip(1) {
             let names: Vec<String> = step.added.iter().map(|a| words::title(structure, &a.source)).collect();
@@ -214,7 +227,7 @@ fn ledger(page: &mut Page, content: &Content<'_>) {
         }
     }
     if !rows.is_empty() {
-        page.chapter("Ledger");
-        page.table(&["Model", "Error|", "Noise floor|"], &rows);
+        page.chapter(Section::Ledger, "Ledger");
+        page.table("Models and their errors", &["Model", "Error|", "Noise floor|"], &rows);
     }
 }

@@ -1,15 +1,17 @@
 //! What a report holds, each part computed or with the reason why not.
 
+use super::request::Request;
 use crate::control::Control;
 use crate::diagnosis::candidates::fingerprint_plot::{self as prints, Print};
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::records::RecordComparison;
-use crate::diagnosis::result::Verdict;
+use crate::diagnosis::result::{Suggestion, Verdict};
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::{Measurements, Outcome, identify_measured};
 use crate::session::identified::take_over;
+use crate::session::time_limit::answer_within;
 use crate::session::validation::{
     compared_with_records, diagnosed, diagnosed_from_records, missing_force, only_records, problem,
 };
@@ -56,8 +58,8 @@ pub struct Content<'a> {
     pub comparison: Found<Comparison>,
     /// Model against records that are not steady, where there are any.
     pub records: Option<Found<RecordComparison>>,
-    /// What the model lacks.
-    pub diagnosis: Found<Diagnosis>,
+    /// What the model lacks; `None` where it was not asked for.
+    pub diagnosis: Option<Found<Diagnosis>>,
     /// Fingerprints of the first suggestions.
     pub fingerprints: Vec<(Source, Print)>,
     /// The missing force at the places of the first suggestions; without one, at the place that explains most.
@@ -68,35 +70,35 @@ pub struct Content<'a> {
 
 /// Error beyond which a model lacks its damping altogether, and no search for a missing effect says anything.
 const HOPELESS: f64 = 10.0;
+/// Least probability of a suggestion that is told in full; the table has the others.
+const TOLD_IN_FULL: f64 = 0.01;
 /// Suggestions whose fingerprint is drawn.
 const MOST_PRINTS: usize = 2;
 
 impl<'a> Content<'a> {
     /// Computes what is not known.
-    pub fn complete(project: &'a Project, known: Known, control: &Control) -> Self {
+    pub fn complete(project: &'a Project, known: Known, request: &Request, control: &Control) -> Self {
         let p = project;
         let outcome = known.outcome.unwrap_or_else(|| {
             let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
             let found = identify_measured(&p.structure, &p.sources, given, &p.settings, control);
             found.map(Arc::new).map_err(|e| e.to_string())
         });
-        let compared = |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new);
-        let as_it_is = known.comparison.unwrap_or_else(|| compared(p).map_err(|e| e.to_string()));
+        let compared =
+            |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string());
+        let as_it_is = known.comparison.unwrap_or_else(|| compared(p));
         let lacks_damping = as_it_is.as_ref().is_ok_and(|c| c.error > HOPELESS);
         let with_identified = outcome.as_ref().ok().filter(|_| lacks_damping).and_then(|o| with_identified(p, o));
-        let (p, comparison, diagnosis) = if let Some((p, _)) = &with_identified {
-            let comparison = compared(p).map_err(|e| e.to_string());
-            let diagnosis = diagnose(p, &comparison, control);
-            (p, comparison, diagnosis)
-        } else {
-            let of_records = || diagnosed_from_records(p, control, &|_| {}).map(Arc::new).map_err(|e| e.to_string());
-            let search = || if only_records(p) { of_records() } else { diagnose(p, &as_it_is, control) };
-            let diagnosis = known.diagnosis.filter(|_| !only_records(p)).unwrap_or_else(search);
-            (p, as_it_is, diagnosis)
+        let (p, comparison, told) = match &with_identified {
+            Some((p, _)) => (p, compared(p), None),
+            None => (p, as_it_is, known.diagnosis.filter(|_| !only_records(p))),
         };
+        let search = || searched(p, &comparison, request, control);
+        let diagnosis = request.needs_search().then(|| told.unwrap_or_else(search));
         let records = compared_with_records(p, control).map_err(|e| e.to_string()).map(|r| r.map(Arc::new)).transpose();
-        let fingerprints = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| fingerprints(p, d, control));
-        let forces = diagnosis.as_ref().map_or_else(|_| Vec::new(), |d| forces(p, d, control));
+        let found = diagnosis.as_ref().and_then(|d| d.as_ref().ok());
+        let fingerprints = found.map_or_else(Vec::new, |d| fingerprints(p, d, control));
+        let forces = found.map_or_else(Vec::new, |d| forces(p, d, control));
         let mut ledger = known.ledger;
         let error = comparison.as_ref().map(|c| [c.error, c.noise_floor]);
         let of_records = || records.as_ref().and_then(|r| r.as_ref().ok()).map(|r| [r.error, r.noise_floor]);
@@ -121,6 +123,21 @@ fn with_identified(p: &Project, outcome: &Outcome) -> Option<(Project, Vec<Sourc
     (!taken.is_empty()).then_some((project, taken))
 }
 
+/// What the model lacks, found within the time that was asked for.
+fn searched(p: &Project, comparison: &Found<Comparison>, request: &Request, control: &Control) -> Found<Diagnosis> {
+    let limited = request.limit.map(|limit| {
+        // The rest of the report takes the time that it needs.
+        let search = control.unhurried();
+        answer_within(&search, p, limit);
+        search
+    });
+    let control = limited.as_ref().unwrap_or(control);
+    if only_records(p) {
+        return diagnosed_from_records(p, control, &|_| {}).map(Arc::new).map_err(|e| e.to_string());
+    }
+    diagnose(p, comparison, control)
+}
+
 /// What is compared of a project.
 fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> Found<Diagnosis> {
     let found = comparison.as_ref().map_err(Clone::clone)?;
@@ -132,6 +149,11 @@ fn diagnose(p: &Project, comparison: &Found<Comparison>, control: &Control) -> F
     diagnosed(p, control, &|_| {}).map(Arc::new).map_err(|e| e.to_string())
 }
 
+/// Suggestions that are not next to impossible.
+pub(super) fn told_in_full(diagnosis: &Diagnosis) -> impl Iterator<Item = &Suggestion> {
+    diagnosis.suggestions.iter().filter(|s| s.probability >= TOLD_IN_FULL)
+}
+
 fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Source, Print)> {
     let last = diagnosis.steps.last();
     let found: Vec<Source> = last.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
@@ -139,12 +161,12 @@ fn fingerprints(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(S
         let print = prints::print(&problem(p), &found, &diagnosis.corrections, source, control).ok()??;
         Some((source.clone(), print))
     };
-    diagnosis.suggestions.iter().take(MOST_PRINTS).filter_map(|s| fingerprint_of(&s.added.source)).collect()
+    told_in_full(diagnosis).take(MOST_PRINTS).filter_map(|s| fingerprint_of(&s.added.source)).collect()
 }
 
 /// The missing force of the first suggestions; of the best place where nothing was named though something is missing.
 fn forces(p: &Project, diagnosis: &Diagnosis, control: &Control) -> Vec<(Option<Source>, RestoringForce)> {
-    let suggested = diagnosis.suggestions.iter().take(MOST_PRINTS).map(|s| Some(s.added.source.clone()));
+    let suggested = told_in_full(diagnosis).take(MOST_PRINTS).map(|s| Some(s.added.source.clone()));
     let mut wanted: Vec<Option<Source>> = suggested.collect();
     if wanted.is_empty() && diagnosis.verdict == Verdict::Unexplained {
         wanted.push(None);

@@ -15,5 +15,5 @@ pub(super) fn figure(page: &mut Page, figure: Figure) {
 
 pub(super) fn sheet(page: &mut Page, title: &str, figures: Vec<Figure>) {
     let sheet = Sheet::of(title, figures);
-    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()));
+    page.drawing(&sheet.drawing(sheet.paper(), Palette::light()), &sheet.table());
 }

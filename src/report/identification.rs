@@ -3,6 +3,7 @@
 use super::content::Content;
 use super::figures::{MOST_MODES, figure, sheet};
 use super::page::Page;
+use super::section::Section;
 use crate::control::Control;
 use crate::display::{format, words};
 use crate::exchange::Project;
@@ -19,7 +20,7 @@ use std::f64::consts::TAU;
 /// Adds them.
 pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control) {
     let p = content.project;
-    page.chapter("Where the energy is lost");
+    page.chapter(Section::Energy, "Where the energy is lost");
     match &content.outcome {
         Ok(outcome) => {
             figure(page, energy::figure(Palette::light(), p, outcome, outcome.accepted));
@@ -52,7 +53,7 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
             format::percent(0.01 * e.energy_percent),
         ])
     });
-    page.table(&["Law", "Place", "State", "Coefficient|", "Energy|"], &rows.collect::<Vec<_>>());
+    page.table("Identified sources", &["Law", "Place", "State", "Coefficient|", "Energy|"], &rows.collect::<Vec<_>>());
     outcome.warnings.iter().for_each(|w| page.warning(w));
     figure(page, angle::figure(Palette::light(), outcome, outcome.accepted, p.settings.stop_angle_deg));
     let (matrix, title) = if outcome.results.others.is_empty() {
@@ -64,7 +65,7 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
     if !rows.is_empty() {
         let labels: Vec<String> = p.structure.dofs().iter().map(|d| d.label.clone()).collect();
         let map = HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m", scale: None };
-        page.drawing(&map.paper(title, Palette::light()));
+        page.drawing(&map.paper(title, Palette::light()), &map.table());
     }
 }
 
@@ -72,7 +73,7 @@ fn ratios(page: &mut Page, outcome: &Outcome) {
     if outcome.results.modes.is_empty() {
         return;
     }
-    page.chapter("Damping ratios");
+    page.chapter(Section::Ratios, "Damping ratios");
     let row = |(r, mode): (usize, &ModeResult)| {
         vec![
             (r + 1).to_string(),
@@ -82,7 +83,11 @@ fn ratios(page: &mut Page, outcome: &Outcome) {
         ]
     };
     let rows: Vec<Vec<String>> = outcome.results.modes.iter().take(MOST_MODES).enumerate().map(row).collect();
-    page.table(&["Mode", "Frequency|", "Damping ratio|", "From half-power points|"], &rows);
+    page.table(
+        "Damping ratios of the identified model",
+        &["Mode", "Frequency|", "Damping ratio|", "From half-power points|"],
+        &rows,
+    );
 }
 
 /// Of the identified model; of the known sources where nothing was identified.
@@ -101,7 +106,7 @@ fn responses(page: &mut Page, content: &Content<'_>, control: &Control) {
     let Ok(response) = forward::receptance(&p.structure, &sources, omega, [sensor, excitation], control) else {
         return;
     };
-    page.chapter(title);
+    page.chapter(Section::Responses, title);
     let diagram = Diagram { project: p, response: &response, quantity: Response::Receptance };
     sheet(page, &diagram.title("Bode diagram"), diagram.bode_figures(Palette::light()).into());
     let centre = p.runs.iter().find(|r| r.enabled).map_or(1.0, |r| r.fit.omega);

@@ -4,6 +4,7 @@
 use super::content::Content;
 use super::figures::sheet;
 use super::page::Page;
+use super::section::Section;
 use crate::diagnosis::component::Loops;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::compare::OneRecord;
@@ -38,7 +39,7 @@ pub(super) fn row(number: usize, run: &TransientRun) -> Vec<String> {
 /// The chapter of the records against the model.
 pub(super) fn chapter(page: &mut Page, content: &Content<'_>) {
     let Some(found) = &content.records else { return };
-    page.chapter("Model of the known sources against the records");
+    page.chapter(Section::Comparison, "Model of the known sources against the records");
     let found = match found {
         Ok(found) => found,
         Err(reason) => return page.warning(reason),
@@ -56,7 +57,7 @@ pub(super) fn chapter(page: &mut Page, content: &Content<'_>) {
         vec![run.file.clone(), run.kind.name().to_owned(), in_words(r.error), format::percent(r.noise_floor), worst]
     };
     let rows: Vec<Vec<String>> = found.records.iter().map(row).collect();
-    page.table(&["Record", "Kind", "Error|", "Noise floor|", "Worst channel|"], &rows);
+    page.table("Error of every record", &["Record", "Kind", "Error|", "Noise floor|", "Worst channel|"], &rows);
     if is_component(p) {
         loops(page, p, found);
     } else {

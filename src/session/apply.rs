@@ -34,6 +34,7 @@ fn change(file: &mut ProjectFile, command: &Command, on: &Structure, folder: &Pa
     match command {
         Command::SetTitle(title) => set(&mut file.project.title, title.clone()),
         Command::SetNotes(notes) => set(&mut file.project.notes, notes.clone()),
+        Command::SetReport(table) => set(&mut file.report, table.clone()),
         Command::AddSource(spec) => add_source(file, spec),
         Command::RemoveSource(at) => remove_source(file, at, on),
         Command::SetSourceState { source, state } => set_state(file, source, *state, on),

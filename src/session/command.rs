@@ -5,6 +5,7 @@
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::correction::CorrectionTable;
+use crate::exchange::project::file::ReportTable;
 use crate::structure::beam::Supports;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -116,6 +117,8 @@ pub enum Command {
     SetTitle(String),
     /// Replaces the free text.
     SetNotes(String),
+    /// Replaces what stands on the title page of reports.
+    SetReport(ReportTable),
     /// Draws a source. Refused where the same one is drawn already.
     AddSource(SourceSpec),
     /// Takes a source out.
@@ -183,6 +186,7 @@ impl Command {
         match self {
             Self::SetTitle(_) => "change title".into(),
             Self::SetNotes(_) => "change notes".into(),
+            Self::SetReport(_) => "change title page".into(),
             Self::AddSource(spec) => format!("add {}", spec.law.noun()),
             Self::RemoveSource(at) => format!("remove {}", at.law.noun()),
             Self::SetSourceState { source, state } => format!("make {} {}", source.law.noun(), state.word()),

@@ -1,7 +1,9 @@
 //! The structure of a project: built from its parameters, and its numbers set by name.
 
 use super::refusal::Refusal;
-use crate::exchange::project::file::{BaseTable, FORMAT, Header, ProjectFile, Shape, SimulateTable, StructureTable};
+use crate::exchange::project::file::{
+    BaseTable, FORMAT, Header, ProjectFile, ReportTable, Shape, SimulateTable, StructureTable,
+};
 use crate::exchange::project::plan;
 use crate::identify::Settings;
 use crate::structure::Structure;
@@ -44,6 +46,7 @@ fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusa
         base: BaseTable::default(),
         analysis: Settings::default(),
         simulate: SimulateTable::default(),
+        report: ReportTable::default(),
     };
     let text = file.to_toml().map_err(|error| Refusal::NotWritable { reason: error.to_string() })?;
     Ok(plan(&text, &folder.join("project.toml"))?.structure)

@@ -7,13 +7,17 @@ use super::edits::Edit;
 use super::files::{self, Pick};
 use super::leaving::{Changes, Leave};
 use super::motion;
+use super::report_choice::{ReportChoice, Wish};
 use super::view::Stage;
 use crate::exchange::Project;
 use crate::exchange::export::Format;
+use crate::exchange::project::file::ReportTable;
 use crate::identify::Outcome;
-use crate::report::{self, Known, LedgerRow};
+use crate::report::{self, Known, LedgerRow, Origin, Request, Tables};
+use crate::session::Command as Change;
 use egui::{Context, Theme, ViewportCommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 impl App {
     /// Does a command of the table.
@@ -26,7 +30,9 @@ impl App {
             Command::Save => {
                 self.save(ctx);
             }
-            Command::Report => self.pick(ctx, Pick::Report),
+            Command::Report => {
+                self.reporting = self.document.as_ref().map(|d| ReportChoice::of(d.session().document().file()));
+            }
             Command::SaveAs => self.pick(ctx, Pick::SaveAs),
             Command::Undo => self.history(Document::undo),
             Command::Redo => self.history(Document::redo),
@@ -156,6 +162,16 @@ impl App {
         self.write_identified(ctx, "Exporting", move |p, outcome| files::export(p, outcome, format, &path));
     }
 
+    /// Keeps what stands on the title page in the project, and asks where the report is to be written.
+    pub(super) fn want_report(&mut self, ctx: &Context, wish: Wish) {
+        let changed = self.document.as_ref().is_some_and(|d| d.session().document().file().report != wish.heading);
+        if changed {
+            self.edit(ctx, &Edit::Do(Change::SetReport(wish.heading.clone())));
+        }
+        self.report_wish = Some(wish);
+        self.pick(ctx, Pick::Report);
+    }
+
     /// Writes the report of what there is; what has not been computed yet is computed for it.
     pub(super) fn report(&mut self, ctx: &Context, path: PathBuf) {
         let Some(document) = &self.document else { return };
@@ -171,7 +187,23 @@ impl App {
             ledger: explained.ledger.path().into_iter().map(row).collect(),
         };
         let project = document.project.clone();
-        self.run(ctx, "Report", move |control| report::write(&project, known, &path, control));
+        let wish =
+            self.report_wish.take().unwrap_or_else(|| ReportChoice::of(document.session().document().file()).wish());
+        let on = document.session().document();
+        let origin = Origin {
+            path: document.session().path().map(Path::to_path_buf),
+            folder: on.folder().to_owned(),
+            file: on.file().clone(),
+        };
+        let request = Request {
+            // What the title page says is in the project by now.
+            heading: ReportTable::default(),
+            sections: wish.sections,
+            limit: Some(Duration::from_secs_f64(wish.limit_s)),
+            tables: if wish.tables { Tables::Beside } else { Tables::None },
+            origin: Some(origin),
+        };
+        self.run(ctx, "Report", move |control| report::write(&project, known, &request, &path, control));
     }
 
     /// The desktop wants to close the window: not before it is asked what becomes of unsaved changes.

@@ -14,10 +14,12 @@ use super::leaving::Leave;
 use super::photograph::Photograph;
 use super::plots::export::Exports;
 use super::repaint::RepaintGuard;
+use super::report_choice::{ReportChoice, Wish};
 use super::view::{Stage, View};
 use crate::control::Control;
 use crate::session::recent::Recent;
 use egui::Context;
+use std::path::PathBuf;
 
 /// Runs from which on the first look is at all of them.
 const MANY_RUNS: usize = 24;
@@ -47,6 +49,10 @@ pub struct App {
     pub leaving: Option<Leave>,
     /// Whether files are chosen inside the window: the desktop has no dialogs.
     pub own_dialogs: bool,
+    /// What the report is to be, while it is asked.
+    pub reporting: Option<ReportChoice>,
+    /// What was decided of it, while it is asked where to.
+    pub(super) report_wish: Option<Wish>,
     /// The dialog for a file that is open in the window.
     pub choosing: Option<Choosing>,
     /// Whether the program may close.
@@ -88,13 +94,19 @@ impl App {
 
     /// Says that something went well.
     pub fn say(&mut self, text: String) {
-        self.message = Some(Message { text, failed: false });
+        self.message = Some(Message { text, failed: false, restore: None });
         self.messages.extend(self.message.clone());
     }
 
     /// Says that something failed, with its reason.
     pub fn fail(&mut self, text: String) {
-        self.message = Some(Message { text, failed: true });
+        self.message = Some(Message { text, failed: true, restore: None });
+        self.messages.extend(self.message.clone());
+    }
+
+    /// Offers the project that was open when the program broke down, whose unsaved changes come back with it.
+    pub fn offer(&mut self, text: String, project: Option<PathBuf>) {
+        self.message = Some(Message { text, failed: true, restore: project });
         self.messages.extend(self.message.clone());
     }
 

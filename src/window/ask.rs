@@ -4,8 +4,9 @@ use super::commands::Command;
 use super::edits::Edit;
 use super::files::Pick;
 use super::frame::panes::Pane;
-use super::importing::destination::Wish;
+use super::importing::destination::Wish as ImportWish;
 use super::leaving::Changes;
+use super::report_choice::Wish;
 use super::schematic::gesture::Intent;
 use super::stages::explain::deed::Deed;
 use super::view::Stage;
@@ -19,6 +20,8 @@ pub struct Message {
     pub text: String,
     /// Whether something failed.
     pub failed: bool,
+    /// A project whose unsaved changes can be had back.
+    pub restore: Option<PathBuf>,
 }
 
 /// What a pane may ask for.
@@ -35,7 +38,7 @@ pub enum Ask {
     /// Measurements, and files of a model, to import.
     Import(Vec<PathBuf>),
     /// Something on the page of an import.
-    Importing(Wish),
+    Importing(ImportWish),
     /// Another name for the project.
     SaveAs(PathBuf),
     /// What was identified in a format; where to, is asked.
@@ -56,6 +59,8 @@ pub enum Ask {
     Pick(Pick),
     /// Files that were chosen in a dialog of the window.
     Picked(Pick, Vec<PathBuf>),
+    /// The report, as decided in its dialog; where to, is asked.
+    Report(Box<Wish>),
     /// Say why something cannot be done.
     Refuse(String),
     /// Close the message.
@@ -79,6 +84,7 @@ impl Ask {
             Self::SaveAs(_) => "SaveAs".to_owned(),
             Self::Schematic(_) => "Schematic".to_owned(),
             Self::Explain(_) => "Explain".to_owned(),
+            Self::Report(_) => "Report".to_owned(),
             Self::Refuse(_) => "Refuse".to_owned(),
             Self::Dismiss => "Dismiss".to_owned(),
         }

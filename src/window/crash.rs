@@ -1,6 +1,9 @@
 //! What is left of a program that broke down: a report with the last commands and where it happened, beside the list of
 //! recent files; the next start says so. No data of the user are written.
 
+use super::app::App;
+use crate::session::recent::Recent;
+use crate::session::save::autosave_path;
 use std::backtrace::Backtrace;
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -27,7 +30,7 @@ pub(crate) fn remember(what: &str) {
 
 /// From now on a panic of the thread that draws leaves a report in `folder`. Panics of jobs are told in the window, which
 /// goes on.
-pub(crate) fn watch(folder: PathBuf) {
+pub fn watch(folder: PathBuf) {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         usual(info);
@@ -63,6 +66,24 @@ pub(crate) fn left_behind(folder: &Path) -> Option<PathBuf> {
     let told = folder.join(TOLD);
     std::fs::rename(folder.join(NEW), &told).ok()?;
     Some(told)
+}
+
+impl App {
+    /// Says that the last start broke down, where it did, and offers the project that was open then where unsaved changes of it
+    /// were kept.
+    pub fn tell_of_crash(&mut self, folder: &Path) {
+        let Some(report) = left_behind(folder) else { return };
+        let last = self.recent.as_ref().and_then(|recent: &Recent| recent.files().first().cloned());
+        let kept = last.filter(|file| autosave_path(file).is_file());
+        let what_next = match &kept {
+            Some(_) => "Unsaved changes were kept: Restore opens the project with them.",
+            None => "Nothing was left unsaved.",
+        };
+        self.offer(
+            format!("Dashpot broke down last time; what led to it is in {}. {what_next}", report.display()),
+            kept,
+        );
+    }
 }
 
 #[cfg(test)]

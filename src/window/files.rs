@@ -3,8 +3,10 @@
 use crate::exchange::Project;
 use crate::exchange::export::{Format, write_outcome};
 use crate::identify::Outcome;
+use crate::window::plots::export::Kind;
 use rfd::AsyncFileDialog;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Name of the work that waits for a dialog.
 pub(crate) const ASKING: &str = "Choosing a file";
@@ -36,12 +38,16 @@ pub enum Pick {
     Report,
     /// The project of an earlier state, to compare with.
     EarlierState,
+    /// The logo of a report.
+    Logo,
+    /// Where to write a plot or a table.
+    Plot(Kind),
 }
 
 impl Pick {
     /// Whether the file is to be written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::SaveAs | Self::Export(_) | Self::Report)
+        matches!(self, Self::SaveAs | Self::Export(_) | Self::Report | Self::Plot(_))
     }
 }
 
@@ -55,6 +61,8 @@ pub(crate) fn title(pick: Pick) -> &'static str {
         Pick::SaveAs => "Save the project as",
         Pick::Report => "Report",
         Pick::Export(_) => "Export",
+        Pick::Logo => "Logo of the report",
+        Pick::Plot(_) => "Export plot",
     }
 }
 
@@ -66,6 +74,8 @@ pub(crate) fn endings(pick: Pick) -> &'static [&'static str] {
         Pick::Import => MEASUREMENTS,
         Pick::Model => &["bdf", "dat", "nas", "pch", "op4", "mtx", "sti", "mas", "inp"],
         Pick::Report => &["pdf", "html"],
+        Pick::Logo => &["png"],
+        Pick::Plot(kind) => kind.endings(),
         Pick::Export(_) => &[],
     }
 }
@@ -76,12 +86,16 @@ pub(crate) fn proposal(pick: Pick) -> String {
         Pick::SaveAs => "project.toml".to_owned(),
         Pick::Report => "report.pdf".to_owned(),
         Pick::Export(format) => format!("damping.{}", extension(format)),
-        Pick::Open | Pick::EarlierState | Pick::Import | Pick::Model => String::new(),
+        Pick::Plot(kind) => format!("plot.{}", kind.endings()[0]),
+        Pick::Open | Pick::EarlierState | Pick::Import | Pick::Model | Pick::Logo => String::new(),
     }
 }
 
-/// Whether the desktop shows dialogs for files: through its portal, which needs a session bus, or through zenity. Other
-/// systems always do.
+/// A dialog of the desktop that has ended sooner was never shown: nobody closes one so fast.
+pub(crate) const SHOWN: Duration = Duration::from_millis(250);
+
+/// Whether the desktop may show dialogs for files: through its portal, which needs a session bus, or through zenity. Other
+/// systems always do. A bus without a portal is found out by the first dialog, which ends at once ([`SHOWN`]).
 pub(crate) fn desktop_has_dialogs() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -96,17 +110,19 @@ pub(crate) fn desktop_has_dialogs() -> bool {
 }
 
 /// Shows the dialog; what was chosen, empty where it was closed.
-pub(crate) fn ask(pick: Pick) -> impl Future<Output = Vec<PathBuf>> + Send {
+pub(crate) fn ask(pick: Pick, name: &str) -> impl Future<Output = Vec<PathBuf>> + Send + use<> {
     let dialog = AsyncFileDialog::new().set_title(title(pick));
-    let dialog = if pick.writes() { dialog.set_file_name(proposal(pick)) } else { dialog };
+    let dialog = if pick.writes() { dialog.set_file_name(name) } else { dialog };
     let endings = endings(pick);
     let dialog = if endings.is_empty() { dialog } else { dialog.add_filter(endings.join(", "), endings) };
     async move {
         let paths = |files: Vec<rfd::FileHandle>| files.iter().map(|f| f.path().to_path_buf()).collect();
         match pick {
-            Pick::Open | Pick::EarlierState => paths(dialog.pick_file().await.into_iter().collect()),
+            Pick::Open | Pick::EarlierState | Pick::Logo => paths(dialog.pick_file().await.into_iter().collect()),
             Pick::Import | Pick::Model => paths(dialog.pick_files().await.unwrap_or_default()),
-            Pick::SaveAs | Pick::Export(_) | Pick::Report => paths(dialog.save_file().await.into_iter().collect()),
+            Pick::SaveAs | Pick::Export(_) | Pick::Report | Pick::Plot(_) => {
+                paths(dialog.save_file().await.into_iter().collect())
+            }
         }
     }
 }

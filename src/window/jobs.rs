@@ -8,7 +8,7 @@ use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
 use egui::Context;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How a piece of work ended.
 #[derive(Debug)]
@@ -17,8 +17,8 @@ pub(crate) enum Done {
     Loaded(Result<(Box<Document>, bool), String>),
     /// The records that a change waited for were read.
     Changed(Result<Box<Ready>, String>),
-    /// Files were chosen, or none.
-    Picked(Pick, Vec<PathBuf>),
+    /// Files were chosen, or none; with the name that was proposed and how long the dialog was open.
+    Picked(Pick, String, Vec<PathBuf>, Duration),
     /// Something that ends with a sentence.
     Said(Result<String, String>),
 }
@@ -67,12 +67,21 @@ impl Jobs {
     ///
     /// # Errors
     /// One line, where no thread can be started.
-    pub(crate) fn pick(&mut self, ctx: &Context, pick: Pick) -> Result<(), String> {
-        if self.running.iter().any(|job| job.name() == files::ASKING) {
+    pub(crate) fn pick(&mut self, ctx: &Context, pick: Pick, name: String) -> Result<(), String> {
+        if self.is_asking() {
             return Ok(());
         }
-        let asked = files::ask(pick);
-        self.start(ctx, files::ASKING, move |_| Done::Picked(pick, pollster::block_on(asked)))
+        let asked = files::ask(pick, &name);
+        self.start(ctx, files::ASKING, move |_| {
+            let begin = Instant::now();
+            let paths = pollster::block_on(asked);
+            Done::Picked(pick, name, paths, begin.elapsed())
+        })
+    }
+
+    /// Whether a dialog of the desktop is open.
+    pub(crate) fn is_asking(&self) -> bool {
+        self.running.iter().any(|job| job.name() == files::ASKING)
     }
 
     /// Runs something that ends with a sentence.

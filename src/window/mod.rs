@@ -7,12 +7,12 @@ pub mod ask;
 pub(crate) mod cache;
 mod chosen_files;
 pub mod commands;
-pub(crate) mod crash;
+pub mod crash;
 pub(crate) mod derived;
 pub mod document;
 pub mod edits;
 pub mod explained;
-pub(crate) mod files;
+pub mod files;
 pub mod frame;
 mod import;
 pub mod importing;
@@ -29,6 +29,7 @@ pub mod plots;
 pub(crate) mod prepared_records;
 pub(crate) mod records;
 pub(crate) mod repaint;
+pub mod report_choice;
 pub(crate) mod schematic;
 pub(crate) mod solid;
 mod stage_status;
@@ -80,12 +81,7 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
         }
         app.recent = eframe::storage_dir("dashpot").map(|folder| Recent::load(&folder.join("recent.json")));
         if let Some(folder) = eframe::storage_dir("dashpot") {
-            if let Some(report) = crash::left_behind(&folder) {
-                app.fail(format!(
-                    "Dashpot broke down last time; what led to it is in {}. Open the project again: unsaved changes come back.",
-                    report.display()
-                ));
-            }
+            app.tell_of_crash(&folder);
             crash::watch(folder);
         }
         app.own_dialogs = !files::desktop_has_dialogs();

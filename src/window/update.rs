@@ -71,7 +71,7 @@ impl App {
                 self.note(finished);
                 self.view.step = None;
             }
-            Done::Picked(pick, paths) => self.picked(ctx, pick, paths),
+            Done::Picked(pick, name, paths, open) => self.closed(ctx, pick, name, paths, open),
             Done::Said(Ok(text)) => self.say(text),
             Done::Loaded(Err(error)) | Done::Changed(Err(error)) | Done::Said(Err(error)) => self.fail(error),
         }
@@ -121,11 +121,13 @@ impl App {
             let title = self.document.as_ref().map_or("", |d| &d.project.title);
             frame::leave::show(&ctx, title, &mut asks);
         }
+        frame::report::show(&ctx, &mut self.reporting, &mut asks);
         frame::choose::show(&ctx, &mut self.choosing, &mut asks);
         frame::focus::show(&ctx, &mut self.view.by_keyboard);
         if let Some((text, failed)) = self.exports.poll(&ctx) {
             if failed { self.fail(text) } else { self.say(text) }
         }
+        self.ask_for_plot(&ctx);
         for ask in asks {
             self.answer(&ctx, ask);
         }
@@ -185,6 +187,7 @@ impl App {
             Ask::Explain(deed) => self.explain(ctx, deed),
             Ask::Pick(pick) => self.pick(ctx, pick),
             Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
+            Ask::Report(wish) => self.want_report(ctx, *wish),
             Ask::Refuse(why) => self.fail(why),
             Ask::Dismiss => self.message = None,
         }
@@ -239,7 +242,8 @@ impl App {
     /// Keeps unsaved changes beside the file now and then.
     fn autosave(&mut self, now: f64) {
         const EVERY: f64 = 20.0;
-        if now - self.kept < EVERY {
+        // A clock that jumps back must not put it off.
+        if (now - self.kept).abs() < EVERY {
             return;
         }
         self.kept = now;

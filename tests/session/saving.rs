@@ -159,3 +159,36 @@ fn a_file_that_vanished_is_written_anew() {
     assert!(refused.contains("check the folder and its free space"), "{refused}");
     assert!(session.is_dirty());
 }
+
+/// A clock that was set back or forth, or a network drive with a clock of its own: what was not saved is told by what the files hold,
+/// not by when they were written.
+#[test]
+fn a_clock_that_jumps_loses_nothing() {
+    let day = std::time::Duration::from_hours(24);
+    let now = std::time::SystemTime::now();
+    let jumps = [[now + 400 * day, now - 400 * day], [now - 4000 * day, now + 4000 * day], [now, now]];
+    for [of_project, of_autosave] in jumps {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("project.toml");
+        std::fs::write(&path, BEAM).unwrap();
+        let mut session = Session::open(&path).unwrap();
+        session.apply(&title("changed")).unwrap();
+        session.autosave().unwrap();
+        drop(session);
+        let written = |path: &std::path::Path, at| {
+            std::fs::File::options().append(true).open(path).unwrap().set_modified(at).unwrap();
+        };
+        written(&path, of_project);
+        written(&autosave_path(&path), of_autosave);
+        let mut session = Session::open(&path).unwrap();
+        assert!(session.recover().unwrap(), "{of_project:?} {of_autosave:?}");
+        assert_eq!(session.document().file().project.title, "changed");
+        session.save().unwrap();
+        assert!(!autosave_path(&path).exists());
+        // Nor is a file taken for another's because its time is another.
+        written(&path, of_autosave);
+        session.apply(&title("changed again")).unwrap();
+        session.save().unwrap();
+        assert_eq!(Session::open(&path).unwrap().document().file().project.title, "changed again");
+    }
+}

@@ -145,3 +145,36 @@ fn the_context_menu_of_a_plot_copies_its_values() {
     let value: f64 = rows[1][1].parse().unwrap();
     assert!((value - 0.3).abs() < 0.01, "{copied}");
 }
+
+/// Presses the keys to copy; gives back what is on the clipboard then.
+fn press_copy(harness: &mut Harness<'_, App>) -> Option<String> {
+    harness.input_mut().events.push(egui::Event::Copy);
+    harness.step();
+    harness.output().platform_output.commands.iter().find_map(|c| match c {
+        OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    })
+}
+
+/// Whoever works with the keyboard alone copies the table of the pane that has the focus.
+#[test]
+fn the_keys_to_copy_take_the_pane_with_the_focus() {
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
+    harness.remove_cursor();
+    harness.run_steps(3);
+    assert_eq!(press_copy(&mut harness), None, "nothing has the focus");
+    harness.get_by_label("Use run 1").focus();
+    harness.run_steps(3);
+    let table = press_copy(&mut harness).expect("the table of runs");
+    assert!(table.starts_with("file\tfrequency (Hz)") && table.lines().count() == 5, "{table}");
+    // The structure's numbers are a table as well.
+    harness.state_mut().view.stage = Stage::Structure;
+    harness.state_mut().desk.set_open(Stage::Structure, Pane::Parameters, true);
+    settle(&mut harness);
+    let place = harness.get_by_label("Ends, left and right").rect().center();
+    harness.hover_at(place);
+    harness.run_steps(3);
+    let table = press_copy(&mut harness).expect("the table of parameters");
+    assert!(table.contains("length\t") && table.contains("supports\t"), "{table}");
+}

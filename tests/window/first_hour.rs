@@ -3,6 +3,8 @@
 
 use crate::support::{settle, start};
 use dashpot::window::App;
+use dashpot::window::ask::Ask;
+use dashpot::window::commands::Command;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::view::Stage;
 use egui::accesskit::Role;
@@ -47,6 +49,14 @@ fn every_step_of_the_first_hour() {
     walk.click(Role::Button, "Add");
     walk.harness.get_by_label_contains("The model now explains the data");
     walk.picture("5-explained");
+    walk.harness.state_mut().answer(&ctx, Ask::Command(Command::Report));
+    walk.harness.run_steps(3);
+    for (field, text) in [("Test object", "Cantilever 40 x 4 mm, No. 7"), ("Tested by", "A. Engineer")] {
+        walk.click(Role::TextInput, field);
+        walk.harness.event(egui::Event::Text(text.to_owned()));
+        walk.harness.run_steps(2);
+    }
+    walk.click(Role::Button, "Cancel");
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("report.html");
     walk.harness.state_mut().desk.set_open(Stage::Explain, Pane::Missing, true);
@@ -58,7 +68,7 @@ fn every_step_of_the_first_hour() {
         ledger: Vec::new(),
     };
     let control = dashpot::control::Control::unattended();
-    dashpot::report::write(&document.project, known, &report, &control).unwrap();
+    dashpot::report::write(&document.project, known, &dashpot::report::Request::default(), &report, &control).unwrap();
     assert!(std::fs::read_to_string(&report).unwrap().contains("Coulomb friction"));
     // What was added here is not kept beside the sample.
     walk.harness.state().document.as_ref().unwrap().forget().unwrap();

@@ -7,6 +7,7 @@ pub use super::label::Label;
 pub use super::lines::Lines;
 pub use super::modes::ModesTable;
 pub use super::reduce::ReduceTable;
+pub use super::report::ReportTable;
 use super::ruled_out::RuledOutTable;
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -66,6 +67,9 @@ pub struct ProjectFile {
     /// Table `[simulate]`.
     #[serde(skip_serializing_if = "is_default")]
     pub simulate: SimulateTable,
+    /// Table `[report]`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub report: ReportTable,
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {

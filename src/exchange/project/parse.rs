@@ -9,7 +9,7 @@ use super::keys::{elements, key_lines};
 use super::label::Label;
 use super::reader::{Origin, Table};
 use super::runs::{harmonics, runs};
-use super::{base, channel, correction, frf, modes, reduce, ruled_out};
+use super::{base, channel, correction, frf, modes, reduce, report, ruled_out};
 use crate::balance::{Expansion, Weights};
 use crate::effects::family::Family;
 use crate::effects::{Effect, State};
@@ -20,7 +20,7 @@ use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 14] = [
+const TABLES: [&str; 15] = [
     "project",
     "structure",
     "source",
@@ -35,6 +35,7 @@ const TABLES: [&str; 14] = [
     "base",
     "analysis",
     "simulate",
+    "report",
 ];
 const BEAM: [&str; 10] = [
     "kind",
@@ -101,6 +102,7 @@ impl ProjectFile {
             base: base::parse(&root)?,
             analysis: analysis(&root)?,
             simulate: simulate(&root, &mut lines)?,
+            report: report::parse(&root)?,
         };
         Ok((parsed, lines))
     }

@@ -27,6 +27,7 @@ impl ProjectFile {
         let names = names
             .chain(file.frf.iter_mut().flat_map(|frf| std::iter::once(&mut frf.file).chain(&mut frf.further_files)));
         let names = names.chain(file.modes.iter_mut().map(|modes| &mut modes.file));
+        let names = names.chain(&mut file.report.logo);
         names.for_each(|name| *name = renamed(name, &from, &to));
         if let Shape::Matrices(table) = &mut file.structure.shape {
             let optional = [&mut table.nodes, &mut table.dofs, &mut table.lines].into_iter().flatten();

@@ -1,49 +1,84 @@
-//! A report as PDF: A4 pages with text that can be searched and copied, drawings as lines, the type embedded.
+//! A report as PDF: A4 pages with text that can be searched and copied, drawings as lines, the type embedded, the chapters as
+//! bookmarks.
 
 mod deflate;
 mod drawn;
 mod face;
+mod front_page;
 mod paper;
 
+use super::front::Front;
+use super::logo::Logo;
 use super::page::Part;
 use deflate::compressed;
 use face::{FACE, Face, FontError};
-use paper::{HEIGHT, Paper, WIDTH};
+use front_page::LOGO;
+use paper::{HEIGHT, Paper, WIDTH, footers};
 use pdf_writer::{Content, Filter, Pdf, Rect, Ref, TextStr};
 
-/// Objects before the pages: catalogue, tree of pages, information, and those of the face.
+/// Number, title and page of a chapter.
+type Chapter = (usize, String, usize);
+
+/// The logo: after catalogue, tree of pages, information and the five objects of the face.
+const LOGO_OBJECT: i32 = 9;
+/// The first page.
 const FIRST_PAGE: i32 = 10;
 
 /// The whole file.
 ///
 /// # Errors
 /// [`FontError`]: the face that is built in cannot be read.
-pub(super) fn document(title: &str, parts: &[Part]) -> Result<Vec<u8>, FontError> {
+pub(super) fn document(front: &Front, parts: &[Part]) -> Result<Vec<u8>, FontError> {
     let face = Face::built_in()?;
-    let mut paper = Paper::new(&face, title);
+    let mut paper = Paper::new(&face);
     for (k, part) in parts.iter().enumerate() {
         paper.part(part, parts.get(k + 1));
     }
-    let pages = paper.finish();
-    Ok(assembled(title, &face, pages))
+    let (body, chapters) = paper.finish();
+    // The contents are as long whatever the numbers in them are.
+    let before = title_page(&face, front, &chapters, 0).len();
+    let mut pages = title_page(&face, front, &chapters, before);
+    pages.extend(body);
+    footers(&face, &front.title, &mut pages);
+    let chapters: Vec<Chapter> = chapters.into_iter().map(|(k, title, page)| (k, title, page + before)).collect();
+    Ok(assembled(front, &face, pages, &chapters))
 }
 
-fn assembled(title: &str, face: &Face, pages: Vec<Content>) -> Vec<u8> {
+/// The title page where the body begins after `before` pages.
+fn title_page(face: &Face, front: &Front, chapters: &[Chapter], before: usize) -> Vec<Content> {
+    let contents: Vec<Chapter> =
+        chapters.iter().map(|(k, title, page)| (*k, title.clone(), page + before + 1)).collect();
+    let mut paper = Paper::new(face);
+    front_page::draw(&mut paper, front, &contents);
+    paper.finish().0
+}
+
+fn assembled(front: &Front, face: &Face, pages: Vec<Content>, chapters: &[Chapter]) -> Vec<u8> {
     let mut pdf = Pdf::new();
-    let [catalogue, tree, information] = [1, 2, 3].map(Ref::new);
+    let [catalogue, tree, information, logo] = [1, 2, 3, LOGO_OBJECT].map(Ref::new);
     let page = |k: usize| Ref::new(FIRST_PAGE + 2 * k as i32);
-    pdf.catalog(catalogue).pages(tree);
+    let outline = page(pages.len());
+    pdf.catalog(catalogue).pages(tree).outlines(outline);
     pdf.pages(tree).kids((0..pages.len()).map(page)).count(pages.len() as i32);
     let mut about = pdf.document_info(information);
-    about.title(TextStr(title));
+    about.title(TextStr(&front.title));
     about.producer(TextStr(concat!("Dashpot ", env!("CARGO_PKG_VERSION"))));
     drop(about);
     let font = face.embed(&mut pdf, 4);
+    if let Some(picture) = &front.logo {
+        image(&mut pdf, logo, picture);
+    }
+    bookmarks(&mut pdf, outline, chapters, page);
     for (k, content) in pages.into_iter().enumerate() {
         let marks = Ref::new(page(k).get() + 1);
         let mut own = pdf.page(page(k));
         own.parent(tree).media_box(Rect::new(0.0, 0.0, WIDTH, HEIGHT)).contents(marks);
-        own.resources().fonts().pair(FACE, font);
+        let mut resources = own.resources();
+        resources.fonts().pair(FACE, font);
+        if front.logo.is_some() {
+            resources.x_objects().pair(LOGO, logo);
+        }
+        drop(resources);
         drop(own);
         let bytes = compressed(content.finish().as_slice());
         pdf.stream(marks, &bytes).filter(Filter::FlateDecode);
@@ -51,87 +86,35 @@ fn assembled(title: &str, face: &Face, pages: Vec<Content>) -> Vec<u8> {
     pdf.finish()
 }
 
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::super::page::Page;
-    use super::document;
-    use super::face::Face;
-    use crate::plots::drawing::Drawing;
-    use ecolor::Color32;
-    use emath::{Align2, pos2, vec2};
-    use flate2::read::ZlibDecoder;
-    use std::io::Read as _;
+fn image(pdf: &mut Pdf, object: Ref, logo: &Logo) {
+    let bytes = compressed(&logo.rgb);
+    let mut image = pdf.image_xobject(object, &bytes);
+    let [width, height] = logo.size.map(|v| v as i32);
+    image.filter(Filter::FlateDecode);
+    image.width(width).height(height).bits_per_component(8);
+    image.color_space().device_rgb();
+}
 
-    /// The operators of all pages, as text where they are text.
-    fn pages(pdf: &[u8]) -> Vec<Vec<u8>> {
-        let find = |from: usize, what: &[u8]| pdf[from..].windows(what.len()).position(|w| w == what).map(|k| from + k);
-        let mut streams = Vec::new();
-        let mut at = 0;
-        while let Some(start) = find(at, b"stream\n") {
-            let end = find(start, b"endstream").unwrap();
-            let mut text = Vec::new();
-            let read = ZlibDecoder::new(&pdf[start + 7..end]).read_to_end(&mut text).is_ok();
-            // Pages choose a face; the face itself does not.
-            if read && text.windows(3).any(|w| w == b" Tf") {
-                streams.push(text);
-            }
-            at = end + 9;
+/// The chapters at the side of the pages: the list at `outline`, its entries in the objects after it.
+fn bookmarks(pdf: &mut Pdf, outline: Ref, chapters: &[Chapter], page: impl Fn(usize) -> Ref) {
+    let entry = |k: usize| Ref::new(outline.get() + 1 + k as i32);
+    let mut list = pdf.outline(outline);
+    if !chapters.is_empty() {
+        list.first(entry(0)).last(entry(chapters.len() - 1)).count(chapters.len() as i32);
+    }
+    drop(list);
+    for (k, (number, title, at)) in chapters.iter().enumerate() {
+        let mut item = pdf.outline_item(entry(k));
+        item.title(TextStr(&format!("{number}  {title}"))).parent(outline);
+        if k > 0 {
+            item.prev(entry(k - 1));
         }
-        streams
-    }
-
-    /// The bytes with the escapes of literal strings resolved: three octal digits, or one letter.
-    fn plain(bytes: &[u8]) -> Vec<u8> {
-        let mut text = Vec::with_capacity(bytes.len());
-        let mut at = 0;
-        while at < bytes.len() {
-            let octal = bytes.get(at + 1..at + 4).filter(|d| d.iter().all(|b| (b'0'..=b'7').contains(b)));
-            let (byte, taken) = match (bytes[at], octal, bytes.get(at + 1)) {
-                (b'\\', Some(d), _) => (d.iter().fold(0_u8, |sum, b| sum.wrapping_mul(8).wrapping_add(b - b'0')), 4),
-                (b'\\', None, Some(letter)) => {
-                    let known = [(b'n', b'\n'), (b'r', b'\r'), (b't', b'\t'), (b'b', 8), (b'f', 12)];
-                    (known.iter().find(|(l, _)| l == letter).map_or(*letter, |(_, byte)| *byte), 2)
-                }
-                (byte, ..) => (byte, 1),
-            };
-            text.push(byte);
-            at += taken;
+        if k + 1 < chapters.len() {
+            item.next(entry(k + 1));
         }
-        text
-    }
-
-    fn sample(rows: usize) -> Page {
-        let mut page = Page::default();
-        page.chapter("Damping ratios");
-        let row = |k: usize| vec![format!("mode {k}"), "0.1072 ± 0.0021 N·s/m".to_owned()];
-        page.table(&["Mode", "Value|"], &(0..rows).map(row).collect::<Vec<_>>());
-        let mut drawing = Drawing::new(vec2(900.0, 500.0), Color32::WHITE, "Bode diagram");
-        drawing.words(pos2(10.0, 10.0), Align2::LEFT_TOP, "ζ = 2 %, −90°", 12.0, Color32::BLACK);
-        page.drawing(&drawing);
-        page
-    }
-
-    #[test]
-    fn pages_hold_the_text_that_was_given() {
-        let pdf = document("Cantilever", &sample(3).finish()).unwrap();
-        assert!(pdf.starts_with(b"%PDF-1.") && pdf.ends_with(b"%%EOF"));
-        let face = Face::built_in().unwrap();
-        let all: Vec<u8> = pages(&pdf).concat();
-        assert!(pdf.windows(10).any(|w| w == b"Cantilever"), "the title");
-        for text in ["Damping ratios", "mode 2", "0.1072 ± 0.0021 N·s/m", "Figure 1. Bode diagram", "ζ = 2 %, −90°"]
-        {
-            let glyphs = face.encode(text);
-            let hex: String = glyphs.iter().map(|b| format!("{b:02X}")).collect();
-            let written = plain(&all).windows(glyphs.len()).any(|w| w == glyphs)
-                || String::from_utf8_lossy(&all).to_uppercase().contains(&hex);
-            assert!(written, "{text}");
-        }
-    }
-
-    #[test]
-    fn a_long_table_goes_on_over_the_page_under_its_head() {
-        let pdf = document("Long", &sample(200).finish()).unwrap();
-        assert!(pages(&pdf).len() >= 4, "{} pages", pages(&pdf).len());
+        item.dest().page(page(*at)).fit();
     }
 }
+
+#[cfg(test)]
+mod tests;

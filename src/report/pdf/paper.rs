@@ -1,10 +1,10 @@
 //! Parts of a report on A4 pages: text broken into lines, tables that go on over the page under their head, figures with
-//! their numbers, lines to sign at the end.
+//! their numbers.
 
 use super::drawn;
 use super::face::Face;
 use crate::plots::drawing::Drawing;
-use crate::report::page::Part;
+use crate::report::page::{Part, Table};
 use ecolor::Color32;
 use pdf_writer::Content;
 
@@ -13,57 +13,54 @@ pub(super) const WIDTH: f32 = 595.28;
 /// A4, points.
 pub(super) const HEIGHT: f32 = 841.89;
 
-const LEFT: f32 = 56.0;
-const TOP: f32 = 60.0;
+pub(super) const LEFT: f32 = 56.0;
+pub(super) const TOP: f32 = 60.0;
 const BOTTOM: f32 = 62.0;
-const ROOM: f32 = WIDTH - 2.0 * LEFT;
+pub(super) const ROOM: f32 = WIDTH - 2.0 * LEFT;
 /// Sizes of type.
-const BODY: f32 = 9.5;
-const SMALL: f32 = 8.0;
+pub(super) const BODY: f32 = 9.5;
+pub(super) const SMALL: f32 = 8.0;
 const CHAPTER: f32 = 15.0;
-const SECTION: f32 = 11.5;
-const TITLE: f32 = 24.0;
+pub(super) const SECTION: f32 = 11.5;
+pub(super) const TITLE: f32 = 24.0;
 /// Room between two columns of a table.
 const GAP: f32 = 12.0;
 /// Largest height of a figure.
 const FIGURE: f32 = 420.0;
 
-const INK: Color32 = Color32::from_rgb(0x16, 0x19, 0x1d);
-const WEAK: Color32 = Color32::from_rgb(0x5c, 0x66, 0x70);
+pub(super) const INK: Color32 = Color32::from_rgb(0x16, 0x19, 0x1d);
+pub(super) const WEAK: Color32 = Color32::from_rgb(0x5c, 0x66, 0x70);
 const WARNING: Color32 = Color32::from_rgb(0x8a, 0x5a, 0x00);
 const LINE: Color32 = Color32::from_rgb(0xd5, 0xda, 0xde);
 
 /// Pages under way.
 pub(super) struct Paper<'a> {
-    face: &'a Face,
-    title: &'a str,
+    pub(super) face: &'a Face,
     pages: Vec<Content>,
+    /// Number, title and page, from 0, of every chapter.
+    chapters: Vec<(usize, String, usize)>,
     /// Distance of what comes next from the top of the page.
-    at: f32,
+    pub(super) at: f32,
 }
 
 impl<'a> Paper<'a> {
-    /// The first page with the title.
-    pub(super) fn new(face: &'a Face, title: &'a str) -> Self {
-        let mut paper = Self { face, title, pages: vec![Content::new()], at: TOP + 10.0 };
-        paper.paragraph(title, TITLE, INK);
-        let kind = concat!("Report of a vibration test, made by Dashpot ", env!("CARGO_PKG_VERSION"));
-        paper.paragraph(kind, BODY, WEAK);
-        paper.at += 8.0;
-        paper
+    /// The first page, empty.
+    pub(super) fn new(face: &'a Face) -> Self {
+        Self { face, pages: vec![Content::new()], chapters: Vec::new(), at: TOP }
     }
 
     /// Adds a part; a title stays with what comes `next`.
     pub(super) fn part(&mut self, part: &Part, next: Option<&Part>) {
         let figure = match next {
-            Some(Part::Figure(_, drawing)) => scale(drawing) * drawing.size.y + 30.0,
+            Some(Part::Figure(_, drawing, _)) => scale(drawing) * drawing.size.y + 30.0,
             _ => 0.0,
         };
         match part {
-            Part::Chapter(title) => {
+            Part::Chapter(number, title) => {
                 self.need(90.0 + figure);
                 self.at += 16.0;
-                self.paragraph(title, CHAPTER, INK);
+                self.chapters.push((*number, title.clone(), self.pages.len() - 1));
+                self.paragraph(&format!("{number}  {title}"), CHAPTER, INK);
                 self.rule(self.at - 3.0);
                 self.at += 4.0;
             }
@@ -75,38 +72,17 @@ impl<'a> Paper<'a> {
             Part::Sentence(text) => self.paragraph(text, BODY, INK),
             Part::Remark(text) => self.paragraph(text, BODY, WEAK),
             Part::Warning(text) => self.paragraph(text, BODY, WARNING),
-            Part::Table(head, rows) => self.table(head, rows),
-            Part::Figure(number, drawing) => self.figure(*number, drawing),
+            Part::Table(number, table) => self.table(*number, table),
+            Part::Figure(number, drawing, _) => self.figure(*number, drawing),
         }
     }
 
-    /// All pages with their numbers, lines to sign on the last.
-    pub(super) fn finish(mut self) -> Vec<Content> {
-        self.need(80.0);
-        self.at += 50.0;
-        for (k, name) in ["Place and date", "Signature"].into_iter().enumerate() {
-            let x = LEFT + 0.55 * ROOM * k as f32;
-            let y = HEIGHT - self.at;
-            let page = self.page();
-            page.set_stroke_rgb(0.36, 0.4, 0.44).set_line_width(0.6);
-            page.move_to(x, y).line_to(x + 0.4 * ROOM, y).stroke();
-            self.text(name, SMALL, WEAK, x, self.at + 11.0);
-        }
-        let count = self.pages.len();
-        for k in 0..count {
-            let number = format!("{} of {count}", k + 1);
-            let (y, right) = (HEIGHT - 32.0, WIDTH - LEFT - self.face.width(&number, SMALL));
-            self.text_on(k, self.title, WEAK, LEFT, y);
-            self.text_on(k, &number, WEAK, right, y);
-        }
-        // Every page ends what it began.
-        for page in &mut self.pages {
-            page.save_state().restore_state();
-        }
-        self.pages
+    /// All pages, and the chapters with theirs.
+    pub(super) fn finish(self) -> (Vec<Content>, Vec<(usize, String, usize)>) {
+        (self.pages, self.chapters)
     }
 
-    fn page(&mut self) -> &mut Content {
+    pub(super) fn page(&mut self) -> &mut Content {
         if self.pages.is_empty() {
             self.pages.push(Content::new());
         }
@@ -115,7 +91,7 @@ impl<'a> Paper<'a> {
     }
 
     /// Goes on to the next page where less than `height` is left.
-    fn need(&mut self, height: f32) -> bool {
+    pub(super) fn need(&mut self, height: f32) -> bool {
         let full = self.at + height > HEIGHT - BOTTOM;
         if full {
             self.pages.push(Content::new());
@@ -125,28 +101,21 @@ impl<'a> Paper<'a> {
     }
 
     /// One line of text with its baseline at `y` from the top.
-    fn text(&mut self, text: &str, size: f32, colour: Color32, x: f32, y: f32) {
+    pub(super) fn text(&mut self, text: &str, size: f32, colour: Color32, x: f32, y: f32) {
         let face = self.face;
         let page = self.page();
         drawn::fill(page, colour, Color32::WHITE);
         drawn::show(page, face, text, size, [1.0, 0.0, 0.0, 1.0, x, HEIGHT - y]);
     }
 
-    fn text_on(&mut self, page: usize, text: &str, colour: Color32, x: f32, y: f32) {
-        let face = self.face;
-        let page = &mut self.pages[page];
-        drawn::fill(page, colour, Color32::WHITE);
-        drawn::show(page, face, text, SMALL, [1.0, 0.0, 0.0, 1.0, x, HEIGHT - y]);
-    }
-
-    fn rule(&mut self, y: f32) {
+    pub(super) fn rule(&mut self, y: f32) {
         let page = self.page();
         let [r, g, b] = [LINE.r(), LINE.g(), LINE.b()].map(|v| f32::from(v) / 255.0);
         page.set_stroke_rgb(r, g, b).set_line_width(0.7);
         page.move_to(LEFT, HEIGHT - y).line_to(LEFT + ROOM, HEIGHT - y).stroke();
     }
 
-    fn paragraph(&mut self, text: &str, size: f32, colour: Color32) {
+    pub(super) fn paragraph(&mut self, text: &str, size: f32, colour: Color32) {
         let leading = 1.4 * size;
         for line in self.face.lines(text, size, ROOM) {
             self.need(leading);
@@ -167,11 +136,12 @@ impl<'a> Paper<'a> {
         self.at += 6.0;
     }
 
-    fn table(&mut self, head: &[String], rows: &[Vec<String>]) {
+    fn table(&mut self, number: usize, Table { title, head, rows }: &Table) {
+        self.need(70.0);
+        self.paragraph(&format!("Table {number}. {title}"), SMALL, WEAK);
         let names: Vec<String> = head.iter().map(|h| h.trim_end_matches('|').to_owned()).collect();
         let right: Vec<bool> = head.iter().map(|h| h.ends_with('|')).collect();
         let widths = self.columns(&names, rows);
-        self.need(50.0);
         self.row(&names, &widths, &right, WEAK);
         self.rule(self.at);
         self.at += 3.0;
@@ -219,6 +189,20 @@ impl<'a> Paper<'a> {
             x += width + GAP;
         }
         self.at += deepest + 3.0;
+    }
+}
+
+/// Writes the title and its number at the foot of every page.
+pub(super) fn footers(face: &Face, title: &str, pages: &mut [Content]) {
+    let count = pages.len();
+    for (k, page) in pages.iter_mut().enumerate() {
+        let number = format!("{} of {count}", k + 1);
+        let right = WIDTH - LEFT - face.width(&number, SMALL);
+        let title = face.lines(title, SMALL, 0.8 * ROOM).swap_remove(0);
+        drawn::fill(page, WEAK, Color32::WHITE);
+        for (text, x) in [(&title, LEFT), (&number, right)] {
+            drawn::show(page, face, text, SMALL, [1.0, 0.0, 0.0, 1.0, x, 32.0]);
+        }
     }
 }
 

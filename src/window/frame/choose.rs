@@ -30,8 +30,7 @@ struct Entry {
 
 impl Choosing {
     /// A dialog that starts in a folder.
-    pub fn new(pick: Pick, folder: PathBuf) -> Self {
-        let name = files::proposal(pick);
+    pub fn new(pick: Pick, folder: PathBuf, name: String) -> Self {
         let mut dialog = Self { pick, folder, name, entries: Vec::new(), fault: None };
         dialog.list();
         dialog
@@ -103,9 +102,15 @@ pub(crate) fn show(ctx: &Context, choosing: &mut Option<Choosing>, asks: &mut Ve
                 asks.push(Ask::Picked(dialog.pick, vec![path]));
                 ended = true;
             }
-            ended |= ui.button(t!("Cancel")).clicked();
+            if ui.button(t!("Cancel")).clicked() {
+                asks.push(Ask::Picked(dialog.pick, Vec::new()));
+                ended = true;
+            }
         });
     });
+    if modal.should_close() && !ended {
+        asks.push(Ask::Picked(dialog.pick, Vec::new()));
+    }
     if ended || modal.should_close() {
         *choosing = None;
     }
@@ -159,7 +164,7 @@ mod tests {
             std::fs::write(folder.path().join(name), "x").unwrap();
         }
         std::fs::create_dir(folder.path().join("z")).unwrap();
-        let mut dialog = Choosing::new(Pick::Open, folder.path().to_owned());
+        let mut dialog = Choosing::new(Pick::Open, folder.path().to_owned(), String::new());
         let names: Vec<&str> = dialog.entries.iter().map(|e| e.name.as_str()).collect();
         assert_eq!(names, ["z", "b.toml"]);
         assert_eq!(dialog.chosen(), None);
@@ -168,7 +173,7 @@ mod tests {
         assert!(dialog.fault.as_ref().unwrap().contains("there is no such file"));
         dialog.name = "b.toml".to_owned();
         assert_eq!(dialog.chosen(), Some(folder.path().join("b.toml")));
-        let mut dialog = Choosing::new(Pick::SaveAs, folder.path().to_owned());
+        let mut dialog = Choosing::new(Pick::SaveAs, folder.path().to_owned(), "project.toml".to_owned());
         assert_eq!(dialog.chosen(), Some(folder.path().join("project.toml")));
         dialog.name = "z".to_owned();
         assert_eq!(dialog.chosen(), None);

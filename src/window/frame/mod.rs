@@ -12,6 +12,7 @@ mod language;
 pub(crate) mod leave;
 pub(crate) mod notice;
 pub mod panes;
+pub(crate) mod report;
 pub(crate) mod schematic;
 pub(crate) mod start;
 pub(crate) mod status;

@@ -9,7 +9,7 @@ use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order
 /// Shows a failure that was not closed yet.
 pub(crate) fn show(ctx: &Context, message: Option<&Message>, asks: &mut Vec<Ask>) {
     if let Some(message) = message.filter(|m| m.failed) {
-        card(ctx, &message.text, asks);
+        card(ctx, message, asks);
     }
 }
 
@@ -33,7 +33,8 @@ pub(crate) fn list(ctx: &Context, messages: &[Message], open: &mut bool) {
     });
 }
 
-fn card(ctx: &Context, text: &str, asks: &mut Vec<Ask>) {
+fn card(ctx: &Context, message: &Message, asks: &mut Vec<Ask>) {
+    let text = &message.text;
     let palette = Palette::of(&ctx.global_style().visuals);
     Area::new(Id::unique("notice")).order(Order::Foreground).anchor(Align2::RIGHT_BOTTOM, vec2(-14.0, -44.0)).show(
         ctx,
@@ -53,6 +54,11 @@ fn card(ctx: &Context, text: &str, asks: &mut Vec<Ask>) {
                         }
                         if ui.button(t!("Copy")).clicked() {
                             ui.ctx().copy_text(text.to_owned());
+                        }
+                        if let Some(project) = &message.restore
+                            && ui.primary("Restore").clicked()
+                        {
+                            asks.push(Ask::Open(project.clone()));
                         }
                     });
                 });

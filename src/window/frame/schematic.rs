@@ -102,7 +102,7 @@ fn moved(ui: &Ui, opened: &mut Opened<'_>, scene: &Scene) -> (Option<Moved>, Str
                 let (frequency, size) =
                     (r.fit.omega / std::f64::consts::TAU, moved.as_ref().map_or(0.0, |m| m.largest));
                 let (frequency, size) = (format::with_unit(frequency, "Hz"), format::prefixed(size, "m"));
-                format!("Run {}   {frequency}   largest {size}", run + 1)
+                format!("Run {}   {frequency}   largest {size} (peak)", run + 1)
             });
             (moved, caption)
         }

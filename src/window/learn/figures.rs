@@ -79,7 +79,7 @@ pub(super) fn loops(title: &str, all: &[AtLevel<Points>], palette: &Palette) -> 
 /// # Errors
 /// One line for a law that takes out no energy.
 pub(super) fn energy(portrait: &Portrait, palette: &Palette) -> Result<(Figure, String), String> {
-    let x = Axis::log("Amplitude", "m").ticks(Ticks::OneTwoFive);
+    let x = Axis::log("Amplitude", "m").peak().ticks(Ticks::OneTwoFive);
     let points: Points = portrait.energy.iter().copied().filter(|p| p[1] > 1e-15).collect();
     let middle = points.len() / 2;
     let (Some(a), Some(b)) = (points.get(middle.wrapping_sub(1)), points.get(middle + 1)) else {

@@ -1,7 +1,8 @@
 //! Two cursors of a plot and their differences: Shift and click sets them on the nearest point, a third click takes them
 //! away.
 
-use crate::display::format::{pretty_unit, significant};
+use crate::display::format::{pretty_unit, significant, with_unit};
+use crate::display::units::{self, Frequency};
 use crate::plots::figure::{Axis, Figure, Look, Scale};
 use crate::window::language::tr;
 use crate::window::theme::{self, Palette};
@@ -44,7 +45,8 @@ impl Cursors {
         if let [a, b] = self.at[..] {
             lines.push(format!("Δ:  {}   {}", said(&figure.x, b[0] - a[0]), between(&figure.y, a[1], b[1])));
             if figure.x.unit == "s" && b[0] != a[0] {
-                lines.push(format!("1/Δ:  {} Hz", significant(1.0 / (b[0] - a[0]).abs(), 4)));
+                let inverse = if units::now().frequency == Frequency::Hertz { "1/Δ" } else { "2π/Δ" };
+                lines.push(format!("{inverse}:  {}", with_unit(1.0 / (b[0] - a[0]).abs(), "Hz")));
             }
         }
         lines

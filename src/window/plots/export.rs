@@ -15,8 +15,9 @@ use crate::window::repaint::request_repaint;
 use crate::window::solid::paint::graphics;
 use crate::window::theme::Palette;
 use crate::window::widgets::UiExt;
-use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Response, Ui, Vec2, vec2};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Rect, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -25,7 +26,7 @@ const PAPER: Vec2 = vec2(900.0, 560.0);
 /// Pixels of a PNG a point.
 const FINE: f32 = 2.0;
 
-/// Keys that copy the values of the plot under the pointer.
+/// Keys that copy the values of the plot under the pointer, else of the one that has the keyboard's focus.
 pub(super) const COPY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::C);
 /// Longest wait for a file that is being written when the window closes.
 const PATIENCE: Duration = Duration::from_secs(3);
@@ -42,11 +43,12 @@ pub enum Kind {
 }
 
 impl Kind {
-    fn ending(self) -> &'static str {
+    /// Ending of its files.
+    pub(crate) fn endings(self) -> &'static [&'static str] {
         match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Csv => "csv",
+            Self::Svg => &["svg"],
+            Self::Png => &["png"],
+            Self::Csv => &["csv"],
         }
     }
 }
@@ -79,6 +81,14 @@ fn ready_id() -> Id {
 
 fn over_id() -> Id {
     Id::NULL.with("plot under the pointer")
+}
+
+fn pointed_id() -> Id {
+    Id::NULL.with("pointed at")
+}
+
+fn focused_id() -> Id {
+    Id::NULL.with("plot with the focus")
 }
 
 fn said_id() -> Id {
@@ -132,17 +142,44 @@ pub fn offer(
     for response in responses {
         response.context_menu(|ui| menu(ui, title, table, response));
     }
-    if responses.iter().any(Response::hovered) {
+    let hovered = responses.iter().any(Response::hovered);
+    if hovered {
         let now = ctx.cumulative_frame_nr();
         ctx.data_mut(|d| d.insert_temp(over_id(), now));
-        if copied(ctx) {
-            copy(ctx, title, table());
-        }
+        point(ctx);
+    }
+    let focused = !hovered && responses.iter().any(|r| is_focused(ctx, r.rect));
+    if focused {
+        let now = ctx.cumulative_frame_nr();
+        ctx.data_mut(|d| d.insert_temp(focused_id(), now));
+    }
+    if (hovered || focused) && copied(ctx) {
+        copy(ctx, title, table());
     }
     for kind in take_wishes(ctx, title) {
         let drawing = Some(draw(ui.palette()));
         ask(ctx, Asked { title: title.to_owned(), kind, drawing, table: table() });
     }
+}
+
+/// Notes that the pointer is over a plot or a table.
+pub(super) fn point(ctx: &Context) {
+    let now = ctx.cumulative_frame_nr();
+    ctx.data_mut(|d| d.insert_temp(pointed_id(), now));
+}
+
+/// Whether the keyboard's focus lies within `area` and the pointer over no plot or table: what is pointed at goes before.
+pub(super) fn is_focused(ctx: &Context, area: Rect) -> bool {
+    let now = ctx.cumulative_frame_nr();
+    let pointed = ctx.data(|d| d.get_temp::<u64>(pointed_id())).is_some_and(|frame| now - frame <= 1);
+    let place = || ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id)).map(|r| r.rect.center());
+    !pointed && place().is_some_and(|at| area.contains(at))
+}
+
+/// Whether a plot that was drawn in this frame has the keyboard's focus.
+pub(super) fn plot_has_focus(ctx: &Context) -> bool {
+    let now = ctx.cumulative_frame_nr();
+    ctx.data(|d| d.get_temp::<u64>(focused_id())) == Some(now)
 }
 
 /// Whether the pointer is over a plot that was drawn in this frame.
@@ -214,7 +251,9 @@ pub type Ending = (String, bool);
 pub struct Exports {
     /// Where files go without a dialog; `None` asks.
     pub folder: Option<PathBuf>,
-    jobs: Vec<Job<(), Option<Result<PathBuf, String>>>>,
+    /// What waits for the name of its file; the first is asked for.
+    waiting: VecDeque<Asked>,
+    jobs: Vec<Job<(), Result<PathBuf, String>>>,
 }
 
 impl Exports {
@@ -224,45 +263,66 @@ impl Exports {
             return Some((said, false));
         }
         let ready: Ready = ctx.data_mut(|d| d.remove_temp(ready_id())).unwrap_or_default();
-        for Asked { title, kind, drawing, table } in ready {
-            let (state, folder) = (graphics(ctx), self.folder.clone());
-            let work = move |_: &crate::control::Control| {
-                let path = target(kind, &title, folder.as_deref())?;
-                let written = match drawing.filter(|_| kind != Kind::Csv) {
-                    Some(drawing) => write(&drawing, kind, &path, state),
-                    None => write_bytes(&path, csv(&table).as_bytes()),
-                };
-                Some(written.map(|()| path))
+        for asked in ready {
+            let Some(folder) = &self.folder else {
+                self.waiting.push_back(asked);
+                continue;
             };
-            match Job::start("Exporting", (), request_repaint(ctx), work) {
-                Ok(job) => self.jobs.push(job),
-                Err(error) => return Some((error.to_string(), true)),
+            let path = folder.join(name_of(&asked));
+            if let Err(error) = self.start(ctx, asked, path) {
+                return Some((error, true));
             }
         }
         let (k, result) = self.jobs.iter().enumerate().find_map(|(k, job)| Some((k, job.poll()?)))?;
         self.jobs.swap_remove(k);
         match result {
-            Ok(None) => None,
-            Ok(Some(Ok(path))) => Some((format!("Written: {}", path.display()), false)),
-            Ok(Some(Err(error))) => Some((error, true)),
+            Ok(Ok(path)) => Some((format!("Written: {}", path.display()), false)),
+            Ok(Err(error)) => Some((error, true)),
             Err(error) => Some((error.to_string(), true)),
         }
     }
 
+    fn start(&mut self, ctx: &Context, asked: Asked, path: PathBuf) -> Result<(), String> {
+        let Asked { kind, drawing, table, .. } = asked;
+        let state = graphics(ctx);
+        let work = move |_: &crate::control::Control| {
+            let written = match drawing.filter(|_| kind != Kind::Csv) {
+                Some(drawing) => write(&drawing, kind, &path, state),
+                None => write_bytes(&path, csv(&table).as_bytes()),
+            };
+            written.map(|()| path)
+        };
+        self.jobs.push(Job::start("Exporting", (), request_repaint(ctx), work).map_err(|e| e.to_string())?);
+        Ok(())
+    }
+
+    /// Kind and proposed name of the file that is to be asked for next.
+    pub(crate) fn wants_file(&self) -> Option<(Kind, String)> {
+        self.waiting.front().map(|asked| (asked.kind, name_of(asked)))
+    }
+
+    /// Writes what waited for its file.
+    ///
+    /// # Errors
+    /// One line, where no thread can be started.
+    pub(crate) fn write_to(&mut self, ctx: &Context, path: PathBuf) -> Result<(), String> {
+        self.waiting.pop_front().map_or(Ok(()), |asked| self.start(ctx, asked, path))
+    }
+
+    /// Forgets what waited for its file.
+    pub(crate) fn give_up(&mut self) {
+        self.waiting.pop_front();
+    }
+
     /// Whether a file is being written or asked for.
     pub fn busy(&self) -> bool {
-        !self.jobs.is_empty()
+        !self.jobs.is_empty() || !self.waiting.is_empty()
     }
 }
 
-/// The file: in a folder by its title, else by a dialog, which blocks until it is closed.
-fn target(kind: Kind, title: &str, folder: Option<&Path>) -> Option<PathBuf> {
-    let ending = kind.ending();
-    let name = format!("{}.{ending}", file_name(title));
-    match folder {
-        Some(folder) => Some(folder.join(name)),
-        None => rfd::FileDialog::new().set_file_name(name).add_filter(ending, &[ending]).save_file(),
-    }
+/// Name of the file by the title.
+fn name_of(asked: &Asked) -> String {
+    format!("{}.{}", file_name(&asked.title), asked.kind.endings()[0])
 }
 
 /// A title as the name of a file: letters and figures in lower case, all else as single hyphens.

@@ -30,12 +30,16 @@ pub(crate) fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
     export::register(ctx, shown_id(), title);
     // A plot in the pane has keys and a menu of its own.
     let over = ui.rect_contains_pointer(area) && !export::over_plot(ctx);
+    if over {
+        export::point(ctx);
+    }
+    let focused = export::is_focused(ctx, area) && !export::plot_has_focus(ctx);
     let opened = over && ctx.input(|i| i.pointer.secondary_clicked());
     let chosen = menu(ui, title, opened);
     if !export::take_wishes(ctx, title).is_empty() {
         return Some(Wish::Csv);
     }
-    chosen.or((over && export::copied(ctx)).then_some(Wish::Copy))
+    chosen.or(((over || focused) && export::copied(ctx)).then_some(Wish::Copy))
 }
 
 /// Does what is wanted with the text of the table, columns separated by tabs.

@@ -2,6 +2,7 @@
 
 use super::identified;
 use super::result::widest;
+use crate::display::units::{self, Damping};
 use crate::display::{change as said, format, words};
 use crate::identify::change::{ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, sessions};
@@ -70,30 +71,48 @@ fn answer(ui: &mut Ui, compared: &Compared, against: &Against) {
     ui.add_space(space::XS);
     let source = |s: &SourceChange| Row {
         name: format!("{} {}", words::effect(s.source.effect), words::short_place(structure, &s.source.place)),
-        unit: format::pretty_unit(said::unit(s)),
-        pair: s.coefficient,
+        unit: format::pretty_unit(&units::shown(said::unit(s)).1),
+        pair: scaled(&s.coefficient, units::shown(said::unit(s)).0),
     };
     table(ui, "Source", &change.sources.iter().map(source).collect::<Vec<_>>());
     if change.modes.is_empty() {
         return;
     }
     ui.add_space(space::S);
-    ui.title("Damping ratios", "of the modes of both models");
+    let measure = units::now().damping;
+    ui.title(measure.words()[0], "of the modes of both models");
     let mode = |m: &ModeChange| Row {
         name: format::with_unit(m.frequency_hz[0], "Hz"),
-        unit: "%".to_owned(),
-        pair: percent(&m.ratio),
+        unit: measure.words()[1].to_owned(),
+        pair: measured(&m.ratio, measure),
     };
     table(ui, "Mode", &change.modes.iter().map(mode).collect::<Vec<_>>());
 }
 
-fn percent(ratio: &Pair) -> Pair {
-    let hundred = |v: f64| 100.0 * v;
+/// A pair in another unit.
+fn scaled(pair: &Pair, factor: f64) -> Pair {
+    let times = |v: f64| factor * v;
     Pair {
-        values: ratio.values.map(hundred),
-        deviations: ratio.deviations.map(hundred),
-        difference: hundred(ratio.difference),
-        deviation: hundred(ratio.deviation),
+        values: pair.values.map(times),
+        deviations: pair.deviations.map(times),
+        difference: times(pair.difference),
+        deviation: times(pair.deviation),
+        chance: pair.chance,
+    }
+}
+
+/// Damping ratios in the measure that is chosen, with deviations to first order; whether they differ is judged by the ratios.
+fn measured(ratio: &Pair, measure: Damping) -> Pair {
+    let [first, second] = [0, 1].map(|k| measure.of(ratio.values[k], ratio.deviations[k]));
+    let own = first[1].hypot(second[1]);
+    let of_ratios = ratio.deviations[0].hypot(ratio.deviations[1]);
+    // What both states share makes the difference surer than the two deviations alone.
+    let shared = if of_ratios > 0.0 { ratio.deviation / of_ratios } else { 1.0 };
+    Pair {
+        values: [first[0], second[0]],
+        deviations: [first[1], second[1]],
+        difference: second[0] - first[0],
+        deviation: shared * own,
         chance: ratio.chance,
     }
 }

@@ -325,7 +325,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
         }
     });
     row.col(|ui| drop(ui.label(run.file.get(folder..).unwrap_or(&run.file)).on_hover_text(&run.file)));
-    row.col(|ui| drop(ui.number(format!("{} Hz", format::significant(run.fit.omega / std::f64::consts::TAU, 4)))));
+    row.col(|ui| drop(ui.number(format::with_unit(run.fit.omega / std::f64::consts::TAU, "Hz"))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {
         if shown.noise {
@@ -372,7 +372,7 @@ fn amplitudes(ui: &mut Ui, run: &Run, channel: usize) {
     let Some(fit) = run.fit.channels.get(channel) else { return };
     let unit = words::axis(fit.channel.quantity, false).rsplit(", ").next().unwrap_or("");
     egui::Grid::new("amplitudes").num_columns(4).spacing([space::XL, space::XS]).show(ui, |ui| {
-        for name in ["Harmonic", "Frequency", "Amplitude", "Phase"] {
+        for name in ["Harmonic", "Frequency", "Amplitude (peak)", "Phase"] {
             ui.hint(name);
         }
         ui.end_row();

@@ -5,7 +5,7 @@ use crate::classical::Damping;
 use crate::classical::method::Method;
 use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, SideBySide};
-use crate::display::format;
+use crate::display::{format, units};
 use crate::plots::heatmap::{HeatMap, occupied};
 use crate::window::language::{t, tr};
 use crate::window::opened::Opened;
@@ -101,8 +101,9 @@ fn table(ui: &mut Ui, found: &SideBySide, chosen: &mut Option<Method>) {
                 }
             }
             for mode in 0..modes {
-                let name = format!("ζ{}, %", mode + 1);
-                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text(t!("Damping ratio of the mode."))));
+                let [symbol, unit] = units::now().damping.symbol();
+                let name = with_comma(&format!("{symbol}{}", mode + 1), unit);
+                row.col(|ui| drop(identified::head_right(ui, &name).on_hover_text(t!("Damping of the mode."))));
             }
         })
         .body(|mut body| {
@@ -122,7 +123,18 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
     }
     ui.add_space(space::S);
     ui.label(t!("Modes of other programs"));
-    let heads = ["Hz", "ζ, %", "Here, Hz", "ζ, %", "MAC", "Model, Hz", "MAC"];
+    let (_, hz) = units::shown("Hz");
+    let [symbol, unit] = units::now().damping.symbol();
+    let damping = with_comma(symbol, unit);
+    let heads = [
+        hz.clone(),
+        damping.clone(),
+        with_comma(t!("Here"), &hz),
+        damping,
+        "MAC".into(),
+        with_comma(t!("Model"), &hz),
+        "MAC".into(),
+    ];
     TableBuilder::new(ui)
         .id_salt("modes of other programs")
         .vscroll(false)
@@ -132,7 +144,7 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
         .columns(Column::exact(NUMBER + space::S), heads.len())
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Shape")));
-            for head in heads {
+            for head in &heads {
                 row.col(|ui| drop(identified::head_right(ui, head)));
             }
         })
@@ -141,15 +153,16 @@ fn of_other_programs(ui: &mut Ui, beside: &[Beside]) {
 
 /// A shape of another program and the same mode here.
 fn shape_row(body: &mut TableBody<'_>, Beside { reference, measured, model }: &Beside) {
-    let hz = |value: f64| format::significant(value, 5);
-    let percent = |ratio: Option<f64>| ratio.map_or_else(dash, |ratio| format::significant(100.0 * ratio, 3));
+    let (factor, _) = units::shown("Hz");
+    let hz = |value: f64| format::significant(factor * value, 5);
+    let damping = |ratio: Option<f64>| ratio.map_or_else(dash, measure);
     let match_cells = |found: &Option<Match>| {
         let cells = |found: &Match| [hz(found.frequency_hz), format::significant(found.mac, 3)];
         found.as_ref().map_or_else(|| [dash(), dash()], cells)
     };
     let ([ours, mac], [undamped, undamped_mac]) = (match_cells(measured), match_cells(model));
-    let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));
-    let own = [hz(reference.frequency_hz), percent(reference.damping_ratio)];
+    let ratio = damping(measured.as_ref().and_then(|found| found.damping_ratio));
+    let own = [hz(reference.frequency_hz), damping(reference.damping_ratio)];
     body.row(space::ROW, |mut row| {
         row.col(|ui| drop(name(ui, &reference.name).on_hover_text(tr(reference.kind.word()))));
         let cells = own.into_iter().chain([ours, ratio, mac, undamped, undamped_mac]);
@@ -184,8 +197,8 @@ fn applied_row(
             row.col(|ui| drop(ui.number(errors.map_or_else(dash, |e| format::significant(e.mac, 2)))));
         }
         for mode in 0..modes {
-            let ratio = applied.ratios.iter().find(|r| r.mode == mode).map(|r| 100.0 * r.ratio);
-            row.col(|ui| drop(ui.number(ratio.map_or_else(dash, |r| format::significant(r, 3)))));
+            let ratio = applied.ratios.iter().find(|r| r.mode == mode).map(|r| r.ratio);
+            row.col(|ui| drop(ui.number(ratio.map_or_else(dash, measure))));
         }
         if row.response().clicked() {
             *chosen = Some(method);
@@ -198,9 +211,9 @@ fn summary(body: &mut TableBody<'_>, found: &SideBySide, errors: usize, modes: u
     let spread = |mode: usize| {
         found.spread.iter().find(|s| s.0 == mode).map(|s| format!("{} %", format::significant(100.0 * s.1, 2)))
     };
-    let figure = |ratio: f64| format::significant(100.0 * ratio, 3);
-    let measured = |mode: usize| found.modal.as_ref().filter(|m| mode < m.len()).map(|m| figure(m.damping_ratio(mode)));
-    let truth = |mode: usize| found.reference_ratios.get(mode).map(|r| figure(r.ratio));
+    let measured =
+        |mode: usize| found.modal.as_ref().filter(|m| mode < m.len()).map(|m| measure(m.damping_ratio(mode)));
+    let truth = |mode: usize| found.reference_ratios.get(mode).map(|r| measure(r.ratio));
     let rows: [(&str, &dyn Fn(usize) -> Option<String>); 3] =
         [("Spread of the methods", &spread), ("Complex modes as measured", &measured), ("Reference", &truth)];
     for (name, value) in rows {
@@ -223,6 +236,16 @@ fn name(ui: &mut Ui, text: &str) -> egui::Response {
     ui.label(RichText::new(tr(text)).size(if fits { size::BODY } else { size::SMALL }).color(ui.palette().ink))
 }
 
+/// A damping ratio in the measure that is chosen, without its unit.
+fn measure(ratio: f64) -> String {
+    format::significant(units::now().damping.of(ratio, 0.0)[0], 3)
+}
+
+/// `name, unit`; the name alone of what has none.
+fn with_comma(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
+}
+
 fn dash() -> String {
     "–".to_owned()
 }
@@ -240,12 +263,14 @@ fn matrices(ui: &mut Ui, found: &SideBySide, damping: &Damping, identified: Opti
     rows.dedup();
     let largest = |m: &Mat<f64>| m.norm_max();
     let scale = against.map_or(0.0, |(_, m)| largest(m)).max(largest(&damping.viscous));
+    let (factor, unit) = units::shown("N s/m");
     let shown = std::iter::once(("Damping matrix of the method", &damping.viscous)).chain(against);
     let height = (0.5 * ui.available_height() - 26.0).max(140.0);
     for (name, matrix) in shown {
         ui.hint(name);
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-            HeatMap { matrix, rows: &rows, labels, unit: "N s/m", scale: Some(scale) }.show(ui, name);
+            let matrix = &(faer::Scale(factor) * matrix);
+            HeatMap { matrix, rows: &rows, labels, unit: &unit, scale: Some(factor * scale) }.show(ui, name);
         });
     }
     for note in &damping.notes {

@@ -19,7 +19,8 @@ use super::frame;
 use super::frame::panes::Pane;
 use super::opened::Opened;
 use super::plots::table as tabled;
-use crate::plots::tables;
+use crate::plots::{tables, tables_of_model};
+use crate::session::validation::problem;
 use egui::Ui;
 
 /// Shows a pane.
@@ -72,7 +73,10 @@ pub fn show(ui: &mut Ui, pane: Pane, opened: &mut Opened<'_>, asks: &mut Vec<Ask
 }
 
 /// Panes that hold a table.
-const TABLES: [Pane; 12] = [
+const TABLES: [Pane; 15] = [
+    Pane::Parameters,
+    Pane::Missing,
+    Pane::Corrections,
     Pane::Runs,
     Pane::Modes,
     Pane::Expansion,
@@ -100,6 +104,19 @@ fn table(ui: &Ui, pane: Pane, opened: &mut Opened<'_>) -> Option<String> {
         Pane::ErrorMap => {
             let comparison = opened.derived.explained.comparison(document)?.as_ref().ok()?;
             Some(tables::errors(&document.project, comparison))
+        }
+        Pane::Parameters => Some(tables_of_model::parameters(document.session().document().file())),
+        Pane::Missing => {
+            let diagnosis = opened.derived.explained.diagnosis(document)?.as_ref().ok()?;
+            Some(tables_of_model::suggestions(&document.project.structure, &diagnosis.suggestions))
+        }
+        Pane::Corrections => {
+            let explained = &opened.derived.explained;
+            let diagnosis = explained.diagnosis(document)?.as_ref().ok()?;
+            let scatter = explained.scatter(document).and_then(|found| found.as_ref().ok());
+            let scatter = scatter.and_then(|found| found.as_ref().as_ref());
+            let known = problem(&document.project).known();
+            Some(tables_of_model::corrections(&document.project.structure, &known, diagnosis, scatter))
         }
         Pane::Ledger => {
             let ledger = &opened.derived.explained.ledger;

@@ -69,7 +69,10 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     } else {
         (&results.equivalent_viscous, "energy-equivalent viscous")
     };
-    let remark = format!("N·s/m, {name}");
+    let (factor, unit) = units::shown("N s/m");
+    let matrix = &(faer::Scale(factor) * matrix);
+    let pretty = format::pretty_unit(&unit);
+    let remark = format!("{pretty}, {name}");
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.checkbox(whole, t!("All DOFs"));
@@ -80,7 +83,7 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
             }
             // Beside the switches where there is room, else the unit alone.
             let fits = width(ui, &remark, theme::font(size::SMALL)) + space::S <= ui.available_width();
-            let shown = if fits { remark.as_str() } else { "N·s/m" };
+            let shown = if fits { remark.as_str() } else { pretty.as_str() };
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 ui.hint(shown).on_hover_text(tr(&remark));
             });
@@ -94,7 +97,7 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     }
     let labels: Vec<String> = p.structure.dofs().iter().map(|d| d.label.clone()).collect();
     ui.add_space(space::XS);
-    let map = heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m", scale: None };
+    let map = heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: &unit, scale: None };
     if *in_space {
         solid::bars::Bars::new(&map).show(ui, "Damping matrix in space", &map);
     } else {

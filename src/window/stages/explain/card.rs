@@ -5,7 +5,8 @@ use super::gauge::Gauge;
 use super::scene::Scene;
 use super::{fingerprint, force};
 use crate::diagnosis::result::Suggestion;
-use crate::display::format::{self, chance, polished};
+use crate::display::findings;
+use crate::display::format::{self, chance};
 use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
@@ -196,7 +197,7 @@ impl Card<'_> {
         force::show(ui, self.scene, Some(&s.added.source));
         self.fingerprint(ui);
         for sentence in &s.evidence {
-            ui.label(RichText::new(tr(polished(sentence))).size(size::BODY - 1.0));
+            ui.label(RichText::new(tr(findings::evidence(sentence, &s.added))).size(size::BODY - 1.0));
         }
     }
 

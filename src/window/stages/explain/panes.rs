@@ -78,10 +78,15 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     let previewed = shown.tried().unwrap_or(shown.comparison);
     let grid = look.grid(previewed);
     let scale = Scale::new(scene.explained.ledger.least_floor(), scene.explained.ledger.worst());
-    head(ui, &mut look, previewed);
     let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
-    if shown.trial.is_none() {
-        not_taken_over(ui, &scene, outcome.as_deref(), asks);
+    let untaken = said_of_untaken(&scene, outcome.as_deref()).filter(|_| shown.trial.is_none());
+    // In a low pane the errors, which stand above and below it too, leave their line to the cells and their scale.
+    let is_low = ui.available_height() < CRAMPED && look.in_bar[0] && untaken.is_some();
+    if !is_low {
+        head(ui, &mut look, previewed);
+    }
+    if let Some(said) = untaken {
+        not_taken_over(ui, said, is_low, asks);
     }
     if let Some((source, tried)) = shown.trial {
         preview(ui, &scene, source, shown.comparison, tried.map(Arc::as_ref), asks);
@@ -114,6 +119,8 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     opened.view.explain = look;
 }
 
+/// Height of the pane below which lines of words give way to the map, points.
+const CRAMPED: f32 = 170.0;
 /// Height of the legend of the map, and of the sentence under it, points.
 const LEGEND: f32 = 40.0;
 const SENTENCE: f32 = 22.0;
@@ -220,22 +227,28 @@ fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) {
     });
 }
 
-/// What was identified but does not act in the model yet, with the button that takes it over.
-fn not_taken_over(ui: &mut Ui, scene: &Scene<'_>, outcome: Option<&Outcome>, asks: &mut Vec<Ask>) {
+/// That what was identified does not act in the model yet, where that is so.
+fn said_of_untaken(scene: &Scene<'_>, outcome: Option<&Outcome>) -> Option<&'static str> {
     let sources = &scene.document.project.sources;
     let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
     let found = |e: &Estimate| e.coefficient > 0.0 && sources.get(e.source).is_some_and(sought);
     if !outcome.is_some_and(|o| o.sources.iter().any(found)) {
-        return;
+        return None;
     }
     let known = sources.iter().any(|s| s.state == State::Known);
-    let said =
-        if known { "What was identified does not act in the model yet." } else { "The model has no damping yet." };
+    Some(if known { "What was identified does not act in the model yet." } else { "The model has no damping yet." })
+}
+
+/// The same with the button that takes it over; in a low pane the button alone, which tells it under the pointer.
+fn not_taken_over(ui: &mut Ui, said: &str, is_low: bool, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(tr(said)).color(ui.palette().warning))
-            .on_hover_text(t!("Only known sources act in the model."));
+        if !is_low {
+            ui.label(RichText::new(tr(said)).color(ui.palette().warning))
+                .on_hover_text(t!("Only known sources act in the model."));
+        }
         let tip = "Makes the identified sources known at their values.";
-        if ui.button(t!("Take over what was identified")).on_hover_text(tr(tip)).clicked() {
+        let tip = if is_low { format!("{}\n{}", tr(said), tr(tip)) } else { tr(tip) };
+        if ui.button(t!("Take over what was identified")).on_hover_text(tip).clicked() {
             asks.push(Ask::Explain(Deed::TakeOver));
         }
     });
