@@ -89,3 +89,17 @@ fn drag_is_found_though_every_level_has_a_stiffness_of_its_own() {
     assert!((value - 60.0).abs() < 3.0 * deviation, "{value} +- {deviation}");
     assert!(deviation < 6.0, "{deviation}");
 }
+
+/// Each alone would be called something else: of the two laws neither is the one that explains most by itself.
+#[test]
+fn a_joint_that_slips_and_stiffens_is_told_as_both() {
+    let at = || Place::Dofs(vec![0]);
+    let slip = Source::known(Effect::Iwan, at(), &[28000.0, 3.0, -0.4, 0.1]);
+    let spring = Source::known(Effect::CubicStiffness, at(), &[2e11]);
+    let diagnosis = diagnosed(&[slip, spring], 2.0, &mut Random::new(5));
+    let last: Vec<Effect> = diagnosis.steps.last().unwrap().added.iter().map(|a| a.source.effect).collect();
+    assert!(last.len() == 2 && last.contains(&Effect::Iwan) && last.contains(&Effect::CubicStiffness), "{last:?}");
+    let found = diagnosis.suggestions.iter().find(|s| s.added.source.effect == Effect::CubicStiffness).unwrap();
+    let value = found.added.source.parameters[0];
+    assert!((value / 2e11 - 1.0).abs() < 0.1, "{value}");
+}
