@@ -120,7 +120,7 @@ fn faults_are_one_line_with_file_set_and_remedy() {
     let folder = hammered("0.01", CHANNELS);
     let error = |frf: &str| opened(folder.path(), frf, "").unwrap_err();
     for (frf, expected) in [
-        ("form = \"mobility\"\n", "correct `form`, or give `scale` too"),
+        ("form = \"mobility\"\n", "correct `form` (of import: --form), or give `scale` (--scale) too"),
         ("form = \"stiffness\"\n", "`form = \"stiffness\"` is not understood"),
         ("scale = 0\n", "other than zero"),
         ("band = [400, 5]\n", "two ascending frequencies"),

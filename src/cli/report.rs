@@ -6,7 +6,7 @@ use crate::exchange::project::file::ReportTable;
 use crate::report::{self, Request, Tables};
 use crate::session::workers::Threads;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 pub(super) fn run(arguments: &Report) -> anyhow::Result<String> {
     let control = Control::unattended().with_workers(Arc::new(Threads));
@@ -33,5 +33,12 @@ fn request(arguments: &Report) -> Request {
         limit: Some(Duration::from_secs_f64(arguments.limit)),
         tables,
         origin: None,
+        made_s: now_s(),
     }
+}
+
+/// Seconds since the beginning of 1970 (UTC).
+#[expect(clippy::disallowed_methods, reason = "a report bears the date on which it is made; no result depends on it")]
+fn now_s() -> Option<f64> {
+    SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs_f64())
 }

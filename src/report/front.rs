@@ -7,7 +7,6 @@ use super::request::Request;
 use crate::display::{findings, format, words};
 use crate::exchange::project::file::ReportTable;
 use crate::identify::Outcome;
-use std::time::SystemTime;
 
 /// What kind of document it is.
 pub(super) const KIND: &str = "Report of a vibration test";
@@ -36,7 +35,7 @@ pub(super) fn front(content: &Content<'_>, request: &Request, heading: ReportTab
         ("Test object", heading.object),
         ("Tested by", heading.tester),
         ("Organisation", heading.organisation),
-        ("Date of the report", Some(format!("{} (UTC)", date::day(SystemTime::now())))),
+        ("Date of the report", request.made_s.map(|made| format!("{} (UTC)", date::day(made)))),
         ("Project", (!project.title.is_empty() && heading.title.is_some()).then(|| project.title.clone())),
         ("Project file", file.map(|path| path.display().to_string())),
         ("Evaluated by", Some(format!("Dashpot {}", env!("CARGO_PKG_VERSION")))),

@@ -74,7 +74,7 @@ pub(super) fn written(width: u32, height: u32, kind: png::ColorType, points: &[u
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests")]
+    #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
     use super::{Logo, written};
 
     #[test]

@@ -59,6 +59,8 @@ pub struct Request {
     pub tables: Tables,
     /// Where the project came from.
     pub origin: Option<Origin>,
+    /// When it is made, seconds since the beginning of 1970 (UTC); none for a report without a date.
+    pub made_s: Option<f64>,
 }
 
 impl Request {

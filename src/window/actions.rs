@@ -17,7 +17,7 @@ use crate::report::{self, Known, LedgerRow, Origin, Request, Tables};
 use crate::session::Command as Change;
 use egui::{Context, Theme, ViewportCommand};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 impl App {
     /// Does a command of the table.
@@ -202,6 +202,7 @@ impl App {
             limit: Some(Duration::from_secs_f64(wish.limit_s)),
             tables: if wish.tables { Tables::Beside } else { Tables::None },
             origin: Some(origin),
+            made_s: now_s(),
         };
         self.run(ctx, "Report", move |control| report::write(&project, known, &request, &path, control));
     }
@@ -223,4 +224,10 @@ impl App {
         let last = outcome.steps.len().saturating_sub(1);
         self.view.step = Some(if on { (now + 1).min(last) } else { now.saturating_sub(1).min(last) });
     }
+}
+
+/// Seconds since the beginning of 1970 (UTC).
+#[expect(clippy::disallowed_methods, reason = "a report bears the date on which it is made; no result depends on it")]
+fn now_s() -> Option<f64> {
+    SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs_f64())
 }

@@ -19,7 +19,8 @@ fn a_double_hit_is_told_and_nothing_is_missing() {
     assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
     let runs = "[[candidates]]\nlaw = \"viscous\"\nwhere = \"each-translation\"\n\
         [[run]]\nfile = \"made/hit.csv\"\nkind = \"transient\"\n\
-        [[run]]\nfile = \"made/hit.csv\"\nkind = \"transient\"\nuse = false\n";
+        [[run]]\nfile = \"made/again.csv\"\nkind = \"transient\"\nuse = false\n";
+    fs::copy(folder.path().join("made/hit.csv"), folder.path().join("made/again.csv")).unwrap();
     fs::write(folder.path().join("p.toml"), format!("{MODEL}{runs}")).unwrap();
 
     let compared = json(&["compare", "p.toml", "--json"], folder.path());

@@ -97,7 +97,7 @@ fn correlated(h: &[f64]) -> f64 {
     let n = (2 * h.len()).next_power_of_two();
     let mut padded = h.to_vec();
     padded.resize(n, 0.0);
-    let powers: Vec<f64> = RealTransform::new(n).forward(&mut padded).iter().map(|line| line.norm_sqr()).collect();
+    let powers: Vec<f64> = RealTransform::new(n).forward(&mut padded).iter().map(faer::c64::norm_sqr).collect();
     let inner = &powers[1..powers.len() - 1];
     let sum: f64 = inner.iter().sum();
     let fourth: f64 = inner.iter().map(|p| p * p).sum();

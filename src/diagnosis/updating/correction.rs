@@ -44,6 +44,7 @@ pub(crate) fn with_corrections(mut updating: Updating, corrections: &[Correction
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
 
     #[test]

@@ -1,5 +1,5 @@
 //! Reports as PDF, read back.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 use super::face::Face;
 use super::{Front, document};
 use crate::control::Control;

@@ -172,7 +172,7 @@ pub(super) fn point(ctx: &Context) {
 pub(super) fn is_focused(ctx: &Context, area: Rect) -> bool {
     let now = ctx.cumulative_frame_nr();
     let pointed = ctx.data(|d| d.get_temp::<u64>(pointed_id())).is_some_and(|frame| now - frame <= 1);
-    let place = || ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id)).map(|r| r.rect.center());
+    let place = || ctx.memory(egui::Memory::focused).and_then(|id| ctx.read_response(id)).map(|r| r.rect.center());
     !pointed && place().is_some_and(|at| area.contains(at))
 }
 
