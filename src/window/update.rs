@@ -127,10 +127,10 @@ impl App {
         if let Some((text, failed)) = self.exports.poll(&ctx) {
             if failed { self.fail(text) } else { self.say(text) }
         }
-        self.ask_for_plot(&ctx);
         for ask in asks {
             self.answer(&ctx, ask);
         }
+        self.ask_for_plot(&ctx);
     }
 
     /// The list of keys, what the program is, the tour.

@@ -219,7 +219,7 @@ pub(super) fn copy(ctx: &Context, title: &str, table: String) {
 pub fn copied(ctx: &Context) -> bool {
     let pressed = || ctx.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)));
     let marked = || ctx.plugin::<egui::text_selection::LabelSelectionState>().lock().has_selection();
-    !ctx.egui_wants_keyboard_input() && pressed() && !marked()
+    !ctx.text_edit_focused() && pressed() && !marked()
 }
 
 fn menu(ui: &mut Ui, title: &str, table: &dyn Fn() -> String, plot: &Response) {
