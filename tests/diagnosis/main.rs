@@ -1,5 +1,5 @@
 //! Projects with a hidden effect: the comparison sees it, the diagnosis names it.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -25,3 +25,4 @@ mod specimen;
 #[path = "../../examples/hidden_effects/suite.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod suite;
+mod two_laws;
