@@ -38,10 +38,4 @@ fn the_dialog_asks_what_the_command_line_asks() {
     assert!(text.contains("C. Engineer") && text.contains("<h2>Settings</h2>"));
     assert!(!text.contains("<h2>Ledger</h2>"));
     assert!(sample.path.with_file_name("r-tables.zip").is_file());
-    let document = harness.state().document.as_ref().unwrap();
-    assert_eq!(
-        document.session().document().file().report.tester.as_deref(),
-        Some("C. Engineer"),
-        "kept in the project"
-    );
 }
