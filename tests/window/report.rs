@@ -14,7 +14,8 @@ fn the_dialog_asks_what_the_command_line_asks() {
     harness.state_mut().own_dialogs = true;
     let ctx = harness.ctx.clone();
     harness.state_mut().answer(&ctx, Ask::Command(Command::Report));
-    harness.run_steps(3);
+    // The dialog has its size, and with it its place, after some frames.
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::TextInput, "Tested by").click();
     harness.run_steps(2);
     harness.event(egui::Event::Text("C. Engineer".to_owned()));
@@ -38,4 +39,7 @@ fn the_dialog_asks_what_the_command_line_asks() {
     assert!(text.contains("C. Engineer") && text.contains("<h2>Settings</h2>"));
     assert!(!text.contains("<h2>Ledger</h2>"));
     assert!(sample.path.with_file_name("r-tables.zip").is_file());
+    let document = harness.state().document.as_ref().unwrap();
+    let kept = document.session().document().file().report.tester.as_deref();
+    assert_eq!(kept, Some("C. Engineer"), "kept in the project");
 }
