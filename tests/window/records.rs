@@ -65,8 +65,6 @@ fn a_decay_is_seen_over_time_as_spectra_and_over_amplitude() {
 fn a_cell_of_the_map_chooses_record_and_channel() {
     let sample = sample("hammer-maxwell");
     let mut harness = open(&sample, Theme::Light);
-    // Comparison and plots do not wait for the search.
-    harness.state_mut().view.limit_s = Some(1e-3);
     explain(&mut harness);
     harness.get_by_role_and_label(Role::Button, "In order").click();
     harness.run_steps(3);
@@ -84,6 +82,7 @@ fn a_cell_of_the_map_chooses_record_and_channel() {
 fn a_sweep_fits_into_a_small_window() {
     let sample = sample("sweep-cubic");
     let mut harness = open_sized(&sample, Theme::Dark, [1024.0, 700.0]);
+    // Comparison and plots do not wait for the search.
     harness.state_mut().view.limit_s = Some(1e-3);
     explain(&mut harness);
     picture(&mut harness, RecordTab::Time, "sweep-1024");
