@@ -1,6 +1,7 @@
 //! Numerical kernels that know nothing of structures.
 
 pub(crate) mod bootstrap;
+pub(crate) mod decimation;
 pub mod eigen;
 pub(crate) mod fill;
 pub(crate) mod hermitian;

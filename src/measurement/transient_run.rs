@@ -4,6 +4,7 @@ use super::channel::{Channel, Quantity};
 use super::finding::Finding;
 use super::kind::{Kind, Part};
 use super::record::Record;
+use crate::math::decimation::{decimated, kept};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -93,6 +94,15 @@ impl TransientRun {
     /// Numbers of the channels that measure forces. A decay has none: nothing acts on it.
     pub fn force_channels(&self) -> Vec<usize> {
         if self.kind == Kind::Decay { Vec::new() } else { self.numbers(|quantity| quantity == Quantity::Force) }
+    }
+
+    /// Every `factor`-th sample of the part that is used, behind a filter against aliasing; what the filter does not cover wholly at both
+    /// ends is left out. `None` where too little is left.
+    pub(crate) fn decimated(&self, factor: usize) -> Option<Self> {
+        let time = kept(self.len(), factor).map(|n| self.time()[n]).collect();
+        let samples = (0..self.channels().len()).map(|c| decimated(self.samples(c), factor)).collect();
+        let record = Record::new(time, self.channels().to_vec(), samples).ok()?;
+        Some(Self { samples: 0..record.time().len(), record: Arc::new(record), ..self.clone() })
     }
 
     fn numbers(&self, wanted: impl Fn(Quantity) -> bool) -> Vec<usize> {

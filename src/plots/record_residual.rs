@@ -37,16 +37,17 @@ impl RecordResidual {
         let number = run.channels().iter().position(|c| c.to_string() == found.channels[k].0)?;
         let channel = &run.channels()[number];
         let rotation = structure.dofs().get(channel.dof).is_some_and(|d| d.direction.is_rotation());
-        let (measured, model) = (run.samples(number), found.model.get(k)?.as_slice());
+        let (measured, model) = (found.measured.get(k)?.as_slice(), found.model.get(k)?.as_slice());
+        let step = (found.time.last()? - found.time.first()?) / (found.time.len().max(2) - 1) as f64;
         let left: Vec<f64> = measured.iter().zip(model).map(|(y, m)| y - m).collect();
         let three = [measured, model, &left];
         Some(Self {
             channel: channel.to_string(),
             file: run.file.clone(),
             axis: Axis::of(words::axis(channel.quantity, rotation)),
-            samples: three.map(|y| Arc::new(Pyramid::new(&run.time()[..y.len()], y))),
-            spectra: spectra(three, run.step()),
-            spectrogram: Spectrogram::new(&left, measured, (run.time()[0], run.step())),
+            samples: three.map(|y| Arc::new(Pyramid::new(&found.time, y))),
+            spectra: spectra(three, step),
+            spectrogram: Spectrogram::new(&left, measured, (found.time[0], step)),
         })
     }
 

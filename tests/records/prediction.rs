@@ -78,7 +78,7 @@ impl Case {
 }
 
 fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
-    SampledForces { step, samples, forces: Vec::new(), measured: Vec::new(), substeps }
+    SampledForces { step, samples, forces: Vec::new(), substeps }
 }
 
 /// Dry friction takes `2 F / k` from every half swing and holds the mass where the spring cannot move it.
@@ -127,6 +127,7 @@ fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
     vec![
         (Effect::Coulomb, vec![0.3]),
         (Effect::Stribeck, vec![0.2, 0.35, 0.05]),
+        (Effect::AsymmetricCoulomb, vec![0.2, 0.35]),
         (Effect::CubicStiffness, vec![4e7]),
         (Effect::QuadraticStiffness, vec![2e4]),
         (Effect::Quadratic, vec![2.0]),
@@ -168,13 +169,7 @@ fn derivatives_are_those_of_the_record() {
             channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
             drives: vec![10],
             kept: 3,
-            forces: SampledForces {
-                step,
-                samples: 700,
-                forces: vec![drive.clone()],
-                measured: Vec::new(),
-                substeps: 2,
-            },
+            forces: SampledForces { step, samples: 700, forces: vec![drive.clone()], substeps: 2 },
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
             shape_errors: vec![],
@@ -224,13 +219,7 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
         channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Displacement, 4)]),
         drives: vec![10],
         kept: 2,
-        forces: SampledForces {
-            step,
-            samples: samples.len(),
-            forces: vec![samples.map(force).collect()],
-            measured: Vec::new(),
-            substeps: 1,
-        },
+        forces: SampledForces { step, samples: samples.len(), forces: vec![samples.map(force).collect()], substeps: 1 },
         initial,
         factors: [1.0; 2],
         shape_errors: vec![],

@@ -59,6 +59,8 @@ fn compared(one: &Loop, model: Vec<f64>, noise: f64) -> OneRecord {
     };
     OneRecord {
         index: one.index,
+        time: (0..one.force.len()).map(|n| one.first_s + n as f64 * one.step).collect(),
+        measured: vec![one.force.clone()],
         error,
         noise_floor: floor,
         channels: vec![(one.channel.clone(), [error, floor])],

@@ -60,7 +60,11 @@ pub struct OneRecord {
     pub times: Vec<RecordPart>,
     /// By frequency.
     pub bands: Vec<RecordPart>,
-    /// Samples of the model, one list a channel of motion.
+    /// Instants at which they are compared, s.
+    pub time: Vec<f64>,
+    /// What was measured then, one list a channel of motion, SI units.
+    pub measured: Vec<Vec<f64>>,
+    /// The same of the model.
     pub model: Vec<Vec<f64>>,
     /// Amplitude curves of the modes that stand out in the channel of greatest response.
     pub curves: Vec<ModeCurve>,
@@ -213,6 +217,8 @@ fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> One
         times: times(record, &model),
         bands: bands(record, &model),
         curves: curves(record, &model),
+        time: record.run.time().to_vec(),
+        measured: record.samples.clone(),
         model,
     }
 }

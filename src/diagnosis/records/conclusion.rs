@@ -29,8 +29,22 @@ const UNLIKELY: f64 = 1e-3;
 const OPEN: f64 = 0.05;
 
 impl Search<'_> {
-    /// Fills `diagnosis` with what was found.
+    /// Fills `diagnosis` with what was found; effects that leave no less than corrections of the model do are none.
     pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+        let before = diagnosis.clone();
+        self.conclude_found(by_size, diagnosis)?;
+        let of_model = |s: &&Step| s.added.is_empty();
+        let corrected = diagnosis.steps.iter().filter(of_model).map(|s| s.error).fold(f64::INFINITY, f64::min);
+        let is_needless = diagnosis.steps.last().is_some_and(|told| !told.added.is_empty() && told.error >= corrected);
+        let of_model = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
+        let Some((level, fit)) = of_model.filter(|_| is_needless && !self.control.is_late()) else { return Ok(()) };
+        let start = self.carried(fit, *level, self.levels.len() - 1)?;
+        let fit = self.corrected_whole(&start)?;
+        *diagnosis = before;
+        self.conclude_told(&self.told(&fit)?, misfit(&fit), std::slice::from_ref(&fit), diagnosis)
+    }
+
+    fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;

@@ -19,6 +19,11 @@ const MOST_MODES: usize = 8;
 const SEEN: f64 = 20.0;
 /// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
 const ABOVE: f64 = 2.0;
+/// Sampling rate over the highest frequency of motion that is enough: it holds the fourth harmonic of a law that is not linear.
+const OVERSAMPLED: f64 = 10.0;
+/// Samples that a record keeps in any case, and that are enough of a long one.
+const FEWEST: usize = 2000;
+const MANY: usize = 8000;
 /// Phase of the highest seen motion that one step of the model may cover, rad.
 const STEP_PHASE: f64 = 0.2;
 
@@ -120,12 +125,17 @@ impl<'a> Records<'a> {
         if list.is_empty() {
             return Err(RecordError::NoRuns);
         }
-        let top = list.iter().map(|r| r.highest_hz).fold(0.0, f64::max);
-        let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
-        let limit = (1.5 * top).min(nyquist);
-        let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
-        let shown = list.iter().map(|r| r.shown(&modes, below, MOST_MODES)).max().unwrap_or(0);
-        let kept = below.max(shown).clamp(1, MOST_MODES).min(modes.len());
+        let mut kept = modes_followed(&list, &modes);
+        let last_hz = modes.omega[kept - 1] / TAU;
+        for own in &mut list {
+            if let Some(run) = own.at_lower_rate(last_hz) {
+                *own = record(own.index, &run)?;
+                kept = 0;
+            }
+        }
+        if kept == 0 {
+            kept = modes_followed(&list, &modes);
+        }
         let sensors = different(&list);
         let parts = PartDirections::new(structure, &modes, kept);
         Ok(Self { structure, known, modes, kept, parts, list, sensors }.with_force_noise())
@@ -222,6 +232,17 @@ impl<'a> Records<'a> {
 }
 
 impl RecordData {
+    /// The run at a lower rate where its own is many times that of the motion of modes up to `last_hz`: nothing is to be seen in between,
+    /// and every fit would take as many times longer. Of a long record that is so many times the frequency of its largest motion.
+    fn at_lower_rate(&self, last_hz: f64) -> Option<TransientRun> {
+        let highest = self.highest_hz.clamp(last_hz, ABOVE * last_hz);
+        let factor = |times: f64, frequency: f64| (1.0 / (times * frequency * self.step)) as usize;
+        let enough = factor(OVERSAMPLED, highest).min(self.len() / FEWEST);
+        let long = factor(2.0 * OVERSAMPLED, self.dominant_hz).min(self.len() / MANY);
+        let factor = enough.max(long);
+        if factor > 1 { self.run.decimated(factor) } else { None }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.samples[0].len()
@@ -241,24 +262,20 @@ impl RecordData {
 
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        let measured: Vec<Vec<f64>> = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
-        let forces = measured.iter().map(|list| sharpened(list)).collect();
+        let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
         let substeps = if linear { 1 } else { self.substeps };
-        SampledForces { step: self.step, samples, forces, measured, substeps }
+        SampledForces { step: self.step, samples, forces, substeps }
     }
 }
 
-/// A sampled force such that straight lines between its samples have the spectrum of the band-limited force that was sampled:
-/// lines weaken a frequency by `(sin(w h / 2) / (w h / 2))^2 = 1 - (w h)^2 / 12 + (w h)^4 / 360 - ...`; its inverse is taken in
-/// differences of the samples up to the fourth.
-fn sharpened(force: &[f64]) -> Vec<f64> {
-    let mut sharp = force.to_vec();
-    for n in 2..force.len().saturating_sub(2) {
-        let second = force[n - 1] - 2.0 * force[n] + force[n + 1];
-        let fourth = force[n - 2] - 4.0 * force[n - 1] + 6.0 * force[n] - 4.0 * force[n + 1] + force[n + 2];
-        sharp[n] += fourth / 90.0 - second / 12.0;
-    }
-    sharp
+/// Number of modes that are followed one by one: those of the motion that stands out, and those that a driven record plainly shows.
+fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
+    let top = list.iter().map(|r| r.highest_hz).fold(0.0, f64::max);
+    let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
+    let limit = (1.5 * top).min(nyquist);
+    let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
+    let shown = list.iter().map(|r| r.shown(modes, below, MOST_MODES)).max().unwrap_or(0);
+    below.max(shown).clamp(1, MOST_MODES).min(modes.len())
 }
 
 fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {

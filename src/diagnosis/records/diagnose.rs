@@ -17,7 +17,7 @@ use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Source};
 use crate::measurement::TransientRun;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
@@ -187,11 +187,15 @@ impl Search<'_> {
         if gain < GAIN && !great {
             return Ok(false);
         }
-        // Both leave no more than noise: what is known of the corrections decides, where they tell much.
+        let constant = new
+            .effects
+            .last()
+            .is_some_and(|e| matches!(e.effect.constant(), Some(Constant::Mass | Constant::Stiffness)));
+        // Both leave no more than noise: what is known of the corrections decides, where they tell much. A mass or spring would be one
+        // of them.
         if misfit(old) < AGREES {
-            return Ok(gain > NEEDLESS || is_strained(old) && !is_strained(new));
+            return Ok(!constant && (gain > NEEDLESS || is_strained(old) && !is_strained(new)));
         }
-        let constant = new.effects.last().is_some_and(|e| matches!(e.effect, Effect::Mass | Effect::Stiffness));
         if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
             return Ok(false);
         }

@@ -15,11 +15,13 @@
 
 use super::data::{RecordData, Records, noise_of};
 use crate::math::statistics::{median, root_mean_square};
-use crate::response::transient::TransientModel;
+use crate::response::transient::{Hold, TransientModel};
 use dashpot_numerics::RealTransform;
 
 /// Noise over the root mean square of a force from which on it cannot be told from the force.
 const MOST: f64 = 0.2;
+/// Samples before one of a band-limited force at which it is felt.
+const AHEAD: usize = 12;
 /// Median of the size of Gaussian noise over its deviation.
 const MEDIAN: f64 = 0.6745;
 
@@ -61,6 +63,7 @@ impl Records<'_> {
                     *sum += h * h;
                     Some(scale * *sum)
                 });
+                let squares = squares.skip(AHEAD);
                 variances[c].iter_mut().zip(squares).for_each(|(v, more)| *v += more);
                 lengths[c] = lengths[c].max(correlated(h));
             }
@@ -79,17 +82,17 @@ impl Records<'_> {
 
 /// Share of the response of the model to the pulses that is believed, by channel: no more power than was measured.
 fn trusted(record: &RecordData, model: &TransientModel) -> Vec<f64> {
-    let forced = model.forced(&record.forces, record.step, 1);
+    let forced = model.forced(&record.forces, Hold::BandLimited, record.step, 1);
     let power = |y: &[f64]| root_mean_square(y).powi(2);
     let share = |(y, m): (&Vec<f64>, &Vec<f64>)| (power(y) / power(m).max(f64::MIN_POSITIVE)).min(1.0);
     record.samples.iter().zip(&forced).map(share).collect()
 }
 
-/// What every channel shows of a unit force at a drive that lasts one sample, from that sample on.
+/// What every channel shows of a unit force at a drive that lasts one sample, from [`AHEAD`] samples before it on.
 fn pulse(model: &TransientModel, record: &RecordData, drive: usize) -> Vec<Vec<f64>> {
-    let mut forces = vec![vec![0.0; record.len() + 1]; record.forces.len()];
-    forces[drive][1] = 1.0;
-    model.forced(&forces, record.step, 1).into_iter().map(|list| list[1..].to_vec()).collect()
+    let mut forces = vec![vec![0.0; record.len() + AHEAD]; record.forces.len()];
+    forces[drive][AHEAD] = 1.0;
+    model.forced(&forces, Hold::BandLimited, record.step, 1)
 }
 
 /// Samples over which noise that passes `h` stays alike: the sum of its squared correlation over all lags.

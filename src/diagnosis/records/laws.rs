@@ -1,23 +1,9 @@
 //! Laws that are looked for in records.
 
 use crate::effects::Effect;
+use crate::response::transient::has_force_in_time;
+use std::sync::LazyLock;
 
 /// Laws that have a force in time.
-pub(super) const LAWS: [Effect; 16] = [
-    Effect::Viscous,
-    Effect::Coulomb,
-    Effect::Quadratic,
-    Effect::Stiffness,
-    Effect::CubicStiffness,
-    Effect::QuadraticStiffness,
-    Effect::Mass,
-    Effect::Power,
-    Effect::ElasticSlider,
-    Effect::Maxwell,
-    Effect::Gap,
-    Effect::Stribeck,
-    Effect::Iwan,
-    Effect::AsymmetricViscous,
-    Effect::Dahl,
-    Effect::BoucWen,
-];
+pub(super) static LAWS: LazyLock<Vec<Effect>> =
+    LazyLock::new(|| Effect::ALL.into_iter().filter(|effect| has_force_in_time(*effect)).collect());

@@ -19,7 +19,7 @@ use super::regression::foremost;
 use super::search::Search;
 use super::variables::scales;
 use crate::effects::{Effect, Leg, Place, Source, State};
-use crate::response::transient::{TransientModel, TransientSetup, force_along};
+use crate::response::transient::{Hold, TransientModel, TransientSetup, force_along};
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
 
@@ -172,7 +172,7 @@ impl Forced {
         let force = force_along(source, [d, v, a], record.step)?;
         let against: Vec<f64> = force.iter().map(|f| -f).collect();
         let forces = if self.drives > 1 { vec![against, force] } else { vec![against] };
-        Some(self.model.forced(&forces, record.step, every))
+        Some(self.model.forced(&forces, Hold::FirstOrder, record.step, every))
     }
 }
 
@@ -290,8 +290,7 @@ mod tests {
         let channel =
             |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: structure.label(dof).into() };
         let channels: Vec<Channel> = (0..3).map(channel).collect();
-        let forces =
-            SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), measured: Vec::new(), substeps: 4 };
+        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 4 };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
         let mut state = 1_u64;

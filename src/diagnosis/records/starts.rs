@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const PLACES: usize = 2;
 const SHAPES: usize = 5;
 /// Laws that are fitted at the places that the equation of motion demands, from the best place on.
-const QUOTAS: [usize; 3] = [LAWS.len(), 3, 2];
+const QUOTAS: [usize; 3] = [usize::MAX, 3, 2];
 /// Laws at other places that the equation of motion demands next.
 const NEXT: usize = 4;
 /// Places of a mass and of a spring that are fitted whatever else the equation of motion demands.

@@ -2,6 +2,7 @@
 
 use super::assembly::is_linear;
 use super::element::{Element, Form};
+use super::hold::{Hold, Polynomial};
 use super::model::TransientModel;
 use super::step::Step;
 use crate::effects::{Constant, Source};
@@ -18,7 +19,7 @@ pub fn force_along(source: &Source, [d, v, a]: [&[f64]; 3], step: f64) -> Option
         let z = law.dynamic_stiffness(parameters, 1.0)?;
         return Some(d.iter().zip(v).map(|(d, v)| z.re * d + z.im * v).collect());
     }
-    let form = Form::of(source.effect, law)?;
+    let form = Form::of(law)?;
     let mut element = Element::new(0, form, law, parameters, 0);
     let mut forces = Vec::with_capacity(d.len());
     for (n, (d, v)) in d.iter().zip(v).enumerate() {
@@ -30,22 +31,21 @@ pub fn force_along(source: &Source, [d, v, a]: [&[f64]; 3], step: f64) -> Option
 }
 
 impl TransientModel {
-    /// What the channels show of `forces` (N, one list a drive, at equal steps of `step` s) that find the linear part of the model at
-    /// rest, `[channel][sample]`, of every `every`-th sample from the first on; forces go straight from sample to sample.
-    pub fn forced(&self, forces: &[Vec<f64>], step: f64, every: usize) -> Vec<Vec<f64>> {
+    /// What the channels show of `forces` (N, one list a drive, at equal steps of `step` s, held between them) that find the linear part
+    /// of the model at rest, `[channel][sample]`, of every `every`-th sample from the first on.
+    pub fn forced(&self, forces: &[Vec<f64>], hold: Hold, step: f64, every: usize) -> Vec<Vec<f64>> {
         let samples = forces.first().map_or(0, Vec::len);
         let first: Vec<[f64; 2]> = forces.iter().map(|list| [list.first().copied().unwrap_or(0.0), 0.0]).collect();
         let mut z = self.modes_of(&vec![0.0; 2 * self.kept()], &first);
-        let stepped = Step::new(&self.system, step);
+        let stepped = Step::new(&self.system, step, step);
+        let held: Vec<Vec<Polynomial>> = forces.iter().map(|force| hold.polynomials(force)).collect();
         let mut channels = vec![Vec::with_capacity(samples.div_ceil(every)); self.sensors.len()];
         // Drives stand behind the elements of the model, which are left at rest.
         let behind = self.legs.len();
         for n in 0..samples {
             if n > 0 {
                 stepped.decay(&mut z);
-                for (input, list) in forces.iter().enumerate() {
-                    stepped.drive(behind + input, list[n - 1], list[n], &mut z);
-                }
+                held.iter().enumerate().for_each(|(k, list)| stepped.drive(behind + k, &list[n - 1], &mut z));
             }
             if n % every != 0 {
                 continue;
@@ -83,8 +83,7 @@ mod tests {
         let channels: Vec<Channel> =
             quantities.iter().flat_map(|q| (0..3).map(move |dof| (q, dof))).map(|(q, dof)| channel(q, dof)).collect();
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
-        let forces =
-            SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), measured: Vec::new(), substeps: 1 };
+        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 1 };
         model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels
     }
 
@@ -115,7 +114,7 @@ mod tests {
             let sources = [known.clone()];
             let setup = TransientSetup::stated(&structure, &modes, &sources, &channels, STEP);
             let model = TransientModel::new(&TransientSetup { drives: &[1], ..setup }).unwrap();
-            let change = model.forced(&[force], STEP, 1);
+            let change = model.forced(&[force], Hold::FirstOrder, STEP, 1);
             for c in 0..3 {
                 let expected: Vec<f64> = with[c].iter().zip(&before[c]).map(|(w, b)| w - b).collect();
                 let size = expected.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -22,6 +22,11 @@ pub(super) fn is_linear(effect: Effect) -> bool {
     matches!(effect, Mass | Viscous | Stiffness | StiffnessProportional | MassProportional)
 }
 
+/// Whether a law between places has a force in time that can be stepped.
+pub fn has_force_in_time(effect: Effect) -> bool {
+    effect.law().is_some_and(|law| is_linear(effect) || Form::of(law).is_some())
+}
+
 /// The elements of a source that does not belong to the linear part.
 pub(super) fn nonlinear(index: usize, source: &Source) -> Result<Vec<Nonlinear>, TransientError> {
     if is_linear(source.effect) || matches!(source.effect.kind(), Kind::Channel(_)) {
@@ -29,7 +34,7 @@ pub(super) fn nonlinear(index: usize, source: &Source) -> Result<Vec<Nonlinear>,
     }
     let refuse = TransientError::NoTimeDomain { effect: source.effect.name() };
     let law = source.effect.law().ok_or(refuse.clone())?;
-    let form = Form::of(source.effect, law).ok_or(refuse)?;
+    let form = Form::of(law).ok_or(refuse)?;
     Ok(source.place.legs().into_iter().map(|leg| (index, leg, form, law, source.parameters.clone())).collect())
 }
 

@@ -174,7 +174,7 @@ impl Derivatives {
         }
         self.on_structure.clear();
         self.on_structure.extend(piece.forces.iter().map(|f| -f));
-        let forces = StepForces { elements: &self.on_structure, start: piece.drives[0], end: piece.drives[1] };
+        let forces = StepForces { elements: &self.on_structure, drives: piece.drives };
         if piece.full {
             self.changes.over_full_step(piece.states[0], &forces);
         } else {

@@ -12,7 +12,7 @@
 
 use crate::effects::memory::open_reversals;
 use crate::effects::ways::{InternalSteps, Way};
-use crate::effects::{Effect, Law, Memory, Motion};
+use crate::effects::{Law, Memory, Motion};
 use faer::c64;
 
 /// Share of a parameter by which the backbone of a law with memory is varied for its derivative.
@@ -31,22 +31,18 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// Of an effect; `None` where it has no force in time that can be stepped here.
-    pub(super) fn of(effect: Effect, law: &dyn Law) -> Option<Self> {
-        match effect {
-            Effect::ElasticSlider | Effect::Iwan => Some(Self::Masing),
-            Effect::Maxwell => Some(Self::Maxwell),
-            Effect::Power => Some(Self::Smooth),
-            Effect::Dahl | Effect::BoucWen => Some(Self::Internal),
-            _ if law.point(&typical(law), 0.0, 1.0).is_none() => None,
-            _ if law.set_valued().is_some() => Some(Self::Friction),
-            _ => Some(Self::Smooth),
+    /// Of a law; `None` where it has no force in time that can be stepped here.
+    pub(super) fn of(law: &dyn Law) -> Option<Self> {
+        let typical: Vec<f64> = law.parameters().iter().map(|p| p.typical).collect();
+        if law.internal(&typical).is_some() {
+            Some(Self::Internal)
+        } else if law.memory(&typical).is_some() {
+            Some(if law.is_linear() { Self::Maxwell } else { Self::Masing })
+        } else {
+            law.point(&typical, 0.0, 1.0)?;
+            Some(if law.set_valued().is_some() { Self::Friction } else { Self::Smooth })
         }
     }
-}
-
-fn typical(law: &dyn Law) -> Vec<f64> {
-    law.parameters().iter().map(|p| p.typical).collect()
 }
 
 /// Mean force of a step with its slopes.
@@ -115,9 +111,9 @@ impl Element {
         }
     }
 
-    /// Greatest force at rest, N.
-    pub(super) fn static_force(&self) -> f64 {
-        self.law.point(&self.parameters, 0.0, CREEP).map_or(0.0, |p| p.force.abs())
+    /// Least and greatest force of friction at rest, N.
+    pub(super) fn static_forces(&self) -> [f64; 2] {
+        [-CREEP, CREEP].map(|v| self.law.point(&self.parameters, 0.0, v).map_or(0.0, |p| p.force))
     }
 
     /// Mean force of a step of `step` s from `d` (m) by `x`; `side` is the sign of the slip of friction.

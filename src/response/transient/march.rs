@@ -14,6 +14,7 @@ use super::changes::Changes;
 use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
+use super::hold::{Polynomial, shifted, value};
 use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
 use super::view::{Piece, Receptance, Sensitivity, View};
@@ -55,16 +56,16 @@ struct Trial {
 }
 
 impl<'a> March<'a> {
-    /// From the state `z` in steps of `length` s under `drives` drives.
+    /// From the state `z` in steps of `length` s, where samples are `sample` s apart, under `drives` drives.
     pub(super) fn new(
         system: &'a LinearSystem,
         views: &'a [View],
         mut elements: Vec<Element>,
         (z, drives): (Vec<f64>, usize),
         (sensitivities, changes): (Vec<Sensitivity>, &[LinearChange]),
-        length: f64,
+        [length, sample]: [f64; 2],
     ) -> Self {
-        let step = Step::new(system, length);
+        let step = Step::new(system, length, sample);
         let receptance = Receptance::new(views, &step);
         let side = views.iter().map(|view| sign(dot(&view.velocity, &z))).collect();
         let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
@@ -77,41 +78,40 @@ impl<'a> March<'a> {
         Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }
     }
 
-    /// One step from the drives `u0` to `u1`.
-    pub(super) fn advance(&mut self, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
+    /// One step under the drives.
+    pub(super) fn advance(&mut self, drives: &[Polynomial]) -> Result<(), TransientError> {
         let step = std::mem::replace(&mut self.step, Step::empty());
         let mut trial = std::mem::take(&mut self.trial);
-        let done = self.advance_by(&step, &mut trial, u0, u1);
+        let done = self.advance_by(&step, &mut trial, drives);
         (self.step, self.trial) = (step, trial);
         done
     }
 
-    fn advance_by(&mut self, step: &Step, trial: &mut Trial, u0: &[f64], u1: &[f64]) -> Result<(), TransientError> {
-        let ahead = self.balance(step, true, trial, [u0, u1])?;
+    fn advance_by(&mut self, step: &Step, trial: &mut Trial, drives: &[Polynomial]) -> Result<(), TransientError> {
+        let ahead = self.balance(step, true, trial, drives)?;
         if ahead.is_none() {
-            self.accept(step, true, trial, [u0, u1], None);
+            self.accept(step, true, trial, drives, None);
             return Ok(());
         }
-        let (mut from, mut remaining) = (u0.to_vec(), step.length);
+        let (mut drives, mut remaining) = (drives.to_vec(), step.length);
         for event in 0..=MOST_EVENTS {
-            let own = (event > 0).then(|| Step::new(self.system, remaining));
+            let own = (event > 0).then(|| Step::new(self.system, remaining, step.sample));
             let piece = own.as_ref().unwrap_or(step);
             let full = event == 0;
-            let ahead = if full { ahead } else { self.balance(piece, full, trial, [&from, u1])? };
+            let ahead = if full { ahead } else { self.balance(piece, full, trial, &drives)? };
             let reversal = match ahead {
-                Some(_) if event < MOST_EVENTS => self.reversal(piece, trial, [&from, u1]),
+                Some(_) if event < MOST_EVENTS => self.reversal(piece, trial, &drives),
                 _ => None,
             };
             let Some((element, tau)) = reversal else {
-                self.accept(piece, full, trial, [&from, u1], None);
+                self.accept(piece, full, trial, &drives, None);
                 return Ok(());
             };
-            let share = tau / remaining;
-            let at: Vec<f64> = from.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
-            let part = Step::new(self.system, tau);
-            self.moved(&part, [&from, &at], &mut trial.free);
-            self.accept(&part, false, trial, [&from, &at], Some(element));
-            (from, remaining) = (at, remaining - tau);
+            let part = Step::new(self.system, tau, step.sample);
+            self.moved(&part, &drives, &mut trial.free);
+            self.accept(&part, false, trial, &drives, Some(element));
+            drives.iter_mut().for_each(|drive| *drive = shifted(drive, part.share()));
+            remaining -= tau;
             if remaining <= 1e-12 * step.length {
                 return Ok(());
             }
@@ -125,7 +125,7 @@ impl<'a> March<'a> {
         step: &Step,
         full: bool,
         trial: &mut Trial,
-        drives: [&[f64]; 2],
+        drives: &[Polynomial],
     ) -> Result<Option<usize>, TransientError> {
         let count = self.elements.len();
         let own;
@@ -153,8 +153,13 @@ impl<'a> March<'a> {
                 let mut new = None;
                 if element.form == Form::Friction && self.side[l] == 0.0 {
                     let held = (dot(&self.views[l].velocity, free) - others(&w.velocity)) / w.velocity[row + l];
-                    let holds = held.abs() <= element.static_force();
-                    side[l] = if holds { 0.0 } else { held.signum() };
+                    let [low, high] = element.static_forces();
+                    let holds = (low..=high).contains(&held);
+                    side[l] = match held {
+                        _ if holds => 0.0,
+                        _ if held > high => 1.0,
+                        _ => -1.0,
+                    };
                     new = holds.then_some(held);
                 }
                 let solve = || element.solve(before[l], w.displacement[row + l], x, step.length, side[l], forces[l]);
@@ -190,7 +195,7 @@ impl<'a> March<'a> {
     }
 
     /// The first element whose slip ends within the step, and when.
-    fn reversal(&self, step: &Step, trial: &Trial, drives: [&[f64]; 2]) -> Option<(usize, f64)> {
+    fn reversal(&self, step: &Step, trial: &Trial, drives: &[Polynomial]) -> Option<(usize, f64)> {
         let turning = (0..self.elements.len()).filter(|&l| self.turns_within(trial, l));
         let when = |l: usize| {
             let start = dot(&self.views[l].velocity, &self.z);
@@ -200,18 +205,16 @@ impl<'a> March<'a> {
     }
 
     /// Relative velocity of element `l` after the time `t` of a step under constant forces.
-    fn velocity_at(&self, l: usize, step: &Step, t: f64, [u0, u1]: [&[f64]; 2], forces: &[f64]) -> f64 {
-        let part = Step::new(self.system, t);
-        let share = t / step.length;
-        let end: Vec<f64> = u0.iter().zip(u1).map(|(a, b)| a + share * (b - a)).collect();
+    fn velocity_at(&self, l: usize, step: &Step, t: f64, drives: &[Polynomial], forces: &[f64]) -> f64 {
+        let part = Step::new(self.system, t, step.sample);
         let mut z = Vec::new();
-        self.moved(&part, [u0, &end], &mut z);
+        self.moved(&part, drives, &mut z);
         forces.iter().enumerate().for_each(|(l, force)| part.push(l, -force, &mut z));
         dot(&self.views[l].velocity, &z)
     }
 
     /// Instant at which the velocity of element `l` passes zero, by regula falsi (Illinois).
-    fn crossing(&self, l: usize, step: &Step, drives: [&[f64]; 2], forces: &[f64], ends: [f64; 2]) -> f64 {
+    fn crossing(&self, l: usize, step: &Step, drives: &[Polynomial], forces: &[f64], ends: [f64; 2]) -> f64 {
         let ([mut a, mut b], [mut at_a, mut at_b]) = ([0.0, step.length], ends);
         let mut last = 0;
         for _ in 0..60 {
@@ -234,16 +237,16 @@ impl<'a> March<'a> {
     }
 
     /// State after a step under the drives alone.
-    fn moved(&self, step: &Step, [u0, u1]: [&[f64]; 2], z: &mut Vec<f64>) {
+    fn moved(&self, step: &Step, drives: &[Polynomial], z: &mut Vec<f64>) {
         z.clone_from(&self.z);
         step.decay(z);
-        for (i, (a, b)) in u0.iter().zip(u1).enumerate() {
-            step.drive(self.elements.len() + i, *a, *b, z);
+        for (i, drive) in drives.iter().enumerate() {
+            step.drive(self.elements.len() + i, drive, z);
         }
     }
 
     /// Takes a step that is decided: state, derivatives and memories move on. `turned` is the element that comes to rest.
-    fn accept(&mut self, step: &Step, full: bool, trial: &mut Trial, drives: [&[f64]; 2], turned: Option<usize>) {
+    fn accept(&mut self, step: &Step, full: bool, trial: &mut Trial, drives: &[Polynomial], turned: Option<usize>) {
         let Trial { free: next, before, after, forces, side, .. } = trial;
         forces.iter().enumerate().for_each(|(l, force)| step.push(l, -force, next));
         after.clear();
@@ -263,7 +266,8 @@ impl<'a> March<'a> {
         }
         if let Some(element) = turned {
             self.side[element] = 0.0;
-            let acceleration = self.acceleration(element, drives[1], forces);
+            let end: Vec<f64> = drives.iter().map(|drive| value(drive, step.share())).collect();
+            let acceleration = self.acceleration(element, &end, forces);
             self.derivatives.turned(element, &self.views[element], forces, acceleration);
         }
     }

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Modes in the band and residual flexibility (`reduction`); the linear part moves exactly between samples in its damped
-//! modes, the measured force being linear there (`system`, `step`, `changes`); local forces are implicit with their mean over a step
+//! modes under a polynomial of the measured force (`hold`, `system`, `step`, `changes`); local forces are implicit with their mean over a step
 //! (`element`); friction is set-valued: it sticks or slips, and a reversal is located within the step (`march`).
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
@@ -17,16 +17,19 @@ mod derivatives;
 mod element;
 mod error;
 mod exponentials;
+mod hold;
 mod march;
-mod measured_force;
 mod model;
 mod reduction;
 mod setup;
 mod step;
 mod system;
 mod view;
+mod writer;
 
 pub use along::force_along;
+pub use assembly::has_force_in_time;
 pub use error::TransientError;
+pub use hold::Hold;
 pub use model::TransientModel;
 pub use setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};

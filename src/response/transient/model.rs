@@ -3,15 +3,19 @@
 use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear, pattern_matrix};
 use super::element::{Element, Form};
 use super::error::TransientError;
+use super::hold::{Hold, Polynomial, shifted};
 use super::march::March;
 use super::reduction::Reduction;
 use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
+use super::step::Step;
 use super::system::{Functional, LinearChange, LinearSystem, Matrices};
 use super::view::{Sensitivity, View};
+use super::writer::{Writer, beyond_mean};
 use crate::effects::Leg;
 use crate::measurement::{Channel, Quantity};
 use dashpot_numerics::{dot, scalar_products};
 use faer::Mat;
+use std::f64::consts::PI;
 
 /// What a channel shows.
 pub(super) struct Sensor {
@@ -19,9 +23,9 @@ pub(super) struct Sensor {
     order: Option<i32>,
     pub(super) functional: Functional,
     /// Shape along the reduced coordinates, for accelerations.
-    pattern: Option<Vec<f64>>,
+    pub(super) pattern: Option<Vec<f64>>,
     /// The drive that a force channel repeats.
-    pub(super) drive: Option<usize>,
+    drive: Option<usize>,
 }
 
 /// A model that predicts records.
@@ -54,7 +58,7 @@ impl TransientModel {
         let places: Vec<Leg> = legs.iter().map(|(_, leg, ..)| *leg).chain(setup.drives.iter().map(driven)).collect();
         let linear = setup.sources.iter().filter(|s| is_linear(s.effect)).flat_map(|s| s.place.legs());
         let patterns = pattern_matrix(n, &places.iter().copied().chain(linear).collect::<Vec<_>>());
-        let reduction = Reduction::new(matrices, setup.modes, setup.kept, &patterns)?;
+        let reduction = Reduction::new(matrices, setup.modes, setup.kept, PI / setup.step[0], &patterns)?;
         let size = reduction.omega.len();
         let along = |leg: Leg| -> Vec<f64> { (0..size).map(|r| leg.relative(|i| reduction.basis[(i, r)])).collect() };
         let inputs: Vec<Vec<f64>> = places.iter().map(|leg| along(*leg)).collect();
@@ -112,32 +116,30 @@ impl TransientModel {
     ) -> Result<TransientResponse, TransientError> {
         let substeps = forces.substeps.max(1);
         let length = forces.step / substeps as f64;
-        let first: Vec<[f64; 2]> = forces.forces.iter().map(|list| at_start(list, forces.step)).collect();
-        let (mut march, mut writer) = self.start(initial, &first, parameters, length);
+        let held: Vec<Vec<Polynomial>> =
+            forces.forces.iter().map(|force| Hold::BandLimited.polynomials(&force[..forces.samples])).collect();
+        let first: Vec<[f64; 2]> = held.iter().map(|list| at_start(list, forces.step)).collect();
+        let (mut march, mut writer) = self.start(initial, &first, parameters, [length, forces.step]);
         let count = self.sensors.len();
         let mut channels = vec![Vec::with_capacity(forces.samples); count];
         let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
         let mut modal = self.no_modal(parameters, forces.samples);
-        let drives = forces.forces.len();
-        let (mut u, mut from, mut to) = (vec![0.0; drives], vec![0.0; drives], vec![0.0; drives]);
+        let mut drives = vec![Polynomial::default(); held.len()];
+        let mut u = vec![0.0; held.len()];
         for n in 0..forces.samples {
             for k in 0..if n == 0 { 0 } else { substeps } {
-                let share = |k: usize| k as f64 / substeps as f64;
-                for (i, list) in forces.forces.iter().enumerate() {
-                    let (a, b) = (list[n - 1], list[n]);
-                    from[i] = a + share(k) * (b - a);
-                    to[i] = a + share(k + 1) * (b - a);
-                }
-                march.advance(&from, &to)?;
+                let s = k as f64 / substeps as f64;
+                drives.iter_mut().zip(&held).for_each(|(drive, list)| *drive = shifted(&list[n - 1], s));
+                march.advance(&drives)?;
             }
             u.iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
+            writer.moved = n > 0;
             let inputs = self.write(&mut march, &mut writer, &u, &mut channels, &mut derivatives);
-            writer.write_modal(&march.z, &inputs, &mut modal);
+            writer.write_modal(&march, &inputs, &mut modal);
         }
         if !march.z.iter().all(|z| z.is_finite()) {
             return Err(TransientError::StepFailed);
         }
-        self.add_measured(forces, &mut channels);
         Ok(TransientResponse { channels, derivatives, modal, end: self.state(&march.z) })
     }
 
@@ -149,7 +151,7 @@ impl TransientModel {
     }
 
     /// What a channel of an order of differentiation shows of each kept mode.
-    fn modes_seen(&self, order: i32) -> Vec<Functional> {
+    pub(super) fn modes_seen(&self, order: i32) -> Vec<Functional> {
         let unit =
             |r: usize| -> Vec<f64> { (0..self.system.coordinates()).map(|k| f64::from(u8::from(k == r))).collect() };
         (0..self.kept()).map(|r| self.system.functional(&unit(r), order)).collect()
@@ -190,7 +192,7 @@ impl TransientModel {
         initial: &[f64],
         drives: &[[f64; 2]],
         parameters: &[TransientParameter],
-        length: f64,
+        steps: [f64; 2],
     ) -> (March<'_>, Writer) {
         let state = self.modes_of(initial, drives);
         let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
@@ -209,9 +211,9 @@ impl TransientModel {
             };
             sensitivities.push(Sensitivity { state, own, change });
         }
-        let writer = Writer::new(self, &changes);
+        let writer = Writer::new(self, &changes, &Step::new(&self.system, steps[0], steps[1]));
         let from = (state, drives.len());
-        (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), length), writer)
+        (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), steps), writer)
     }
 
     /// How the initial state, of `count` entries under the `drives`, changes with a parameter.
@@ -262,10 +264,14 @@ impl TransientModel {
             slopes.push([by_d, by_v]);
         }
         inputs[count..].copy_from_slice(u);
-        for (sensor, list) in self.sensors.iter().zip(channels) {
+        let beyond = beyond_mean(&inputs, march);
+        for (c, (sensor, list)) in self.sensors.iter().zip(channels).enumerate() {
             list.push(match sensor.drive {
                 Some(drive) => u.get(drive).copied().unwrap_or(0.0),
-                None => dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs),
+                None => {
+                    let seen = dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs);
+                    seen + writer.late(c, &beyond)
+                }
             });
         }
         if derivatives.is_empty() {
@@ -275,10 +281,11 @@ impl TransientModel {
         let width = march.z.len();
         scalar_products(&writer.sensors, &march.derivatives.states, width, &mut writer.seen);
         let sensors = self.sensors.len();
-        let mut pushes = vec![0.0; count];
+        let (mut pushes, mut beyond) = (vec![0.0; count], vec![0.0; count]);
         for (theta, lists) in derivatives.iter_mut().enumerate() {
             for l in 0..count {
                 pushes[l] = -self.force_change(march, theta, l, motion[l], slopes[l]);
+                beyond[l] = pushes[l] + march.derivatives.forces[theta * count + l];
             }
             for (c, (sensor, list)) in self.sensors.iter().zip(lists).enumerate() {
                 if sensor.drive.is_some() {
@@ -287,7 +294,7 @@ impl TransientModel {
                 }
                 let pushed: f64 = sensor.functional.inputs.iter().zip(&pushes).map(|(c, f)| c * f).sum();
                 let changed = march.derivatives.changed[theta].map_or(0.0, |k| writer.by_change[k * sensors + c]);
-                list.push(writer.seen[theta * sensors + c] + pushed + changed);
+                list.push(writer.seen[theta * sensors + c] + pushed + changed + writer.late(c, &beyond));
             }
         }
         inputs
@@ -309,69 +316,7 @@ impl TransientModel {
     }
 }
 
-/// A sampled force at its start, and its rate there by its first three samples.
-fn at_start(force: &[f64], step: f64) -> [f64; 2] {
-    match force {
-        [a, b, c, ..] => [*a, (4.0 * b - 3.0 * a - c) / (2.0 * step)],
-        [a, ..] => [*a, 0.0],
-        [] => [0.0; 2],
-    }
-}
-
-/// What turns states into samples of the channels.
-struct Writer {
-    /// Rows of the sensors, one behind the other.
-    sensors: Vec<f64>,
-    /// How accelerations change with each change of the linear part at a fixed state: rows on the state and on the inputs, a
-    /// sensor after the other, `width` numbers each.
-    changes: Vec<f64>,
-    width: usize,
-    state: Vec<f64>,
-    by_change: Vec<f64>,
-    seen: Vec<f64>,
-    /// What a channel of each order shows of each kept mode.
-    modes: [Vec<Functional>; 3],
-}
-
-impl Writer {
-    fn new(model: &TransientModel, changes: &[LinearChange]) -> Self {
-        let width = 2 * model.system.lambda.len() + model.system.beta.len();
-        let mut rows = Vec::with_capacity(changes.len() * model.sensors.len() * width);
-        for change in changes {
-            for sensor in &model.sensors {
-                match &sensor.pattern {
-                    Some(pattern) => {
-                        let Functional { row, inputs } = model.system.acceleration_change(pattern, change);
-                        rows.extend(row.iter().chain(&inputs));
-                    }
-                    None => rows.resize(rows.len() + width, 0.0),
-                }
-            }
-        }
-        Self {
-            sensors: model.sensors.iter().flat_map(|s| s.functional.row.iter().copied()).collect(),
-            changes: rows,
-            width,
-            state: Vec::new(),
-            by_change: Vec::new(),
-            seen: Vec::new(),
-            modes: [0, 1, 2].map(|order| model.modes_seen(order)),
-        }
-    }
-
-    /// Adds what channels show of the kept modes at a state under inputs.
-    fn write_modal(&self, z: &[f64], inputs: &[f64], modal: &mut [Vec<Vec<f64>>; 3]) {
-        for (lists, functionals) in modal.iter_mut().zip(&self.modes) {
-            for (list, functional) in lists.iter_mut().zip(functionals) {
-                list.push(dot(&functional.row, z) + dot(&functional.inputs, inputs));
-            }
-        }
-    }
-
-    /// What the changes of the linear part do to the samples at a state under inputs.
-    fn changed(&mut self, z: &[f64], inputs: &[f64]) {
-        self.state.clear();
-        self.state.extend(z.iter().chain(inputs));
-        scalar_products(&self.changes, &self.state, self.width, &mut self.by_change);
-    }
+/// A force at its start, and its rate there, of samples `step` s apart.
+fn at_start(force: &[Polynomial], step: f64) -> [f64; 2] {
+    force.first().map_or([0.0; 2], |first| [first[0], first[1] / step])
 }

@@ -90,10 +90,8 @@ pub struct SampledForces {
     pub step: f64,
     /// Number of samples.
     pub samples: usize,
-    /// Forces, N, one list a driven DOF: steps go straight from sample to sample.
+    /// Forces, N, one list a driven DOF; between samples they go on as band-limited ones do.
     pub forces: Vec<Vec<f64>>,
-    /// The same as they were measured, where those of the steps are sharpened; else empty.
-    pub measured: Vec<Vec<f64>>,
     /// Steps of the model from one sample to the next.
     pub substeps: usize,
 }

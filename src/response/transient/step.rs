@@ -1,12 +1,13 @@
-//! One exact step of the linear part: forces of elements constant, measured forces linear within it.
+//! One exact step of the linear part: forces of elements constant, measured forces polynomials of time within it.
 //!
 //! ```text
-//! z(h) = e^(lambda h) z_0 + h phi_1 (beta f + beta_u u_0) + h phi_2 beta_u (u_1 - u_0)
+//! z(h) = e^(lambda h) z_0 + h phi_1 beta f + sum_k h (h / T)^k k! phi_k+1 beta_u c_k,    u(t) = sum_k c_k (t / T)^k
 //! ```
 //!
-//! States are flat: the real parts of all damped modes, behind them the imaginary parts.
+//! States are flat: the real parts of all damped modes, behind them the imaginary parts. `T` is the time between samples.
 
-use super::exponentials::integrals;
+use super::exponentials::phi;
+use super::hold::{ORDERS, Polynomial};
 use super::system::LinearSystem;
 use dashpot_numerics::{dot, turn};
 use faer::c64;
@@ -16,48 +17,55 @@ use faer::c64;
 pub(super) struct Step {
     /// Length, s.
     pub length: f64,
+    /// Time between samples, s.
+    pub sample: f64,
     decay: Vec<f64>,
-    /// `h phi_1`.
-    pub constant: Vec<c64>,
-    /// `h phi_2`: of a force that rises to 1.
-    pub rising: Vec<c64>,
-    /// `h phi_1 beta` and `h phi_2 beta` of every input, flat, one behind the other.
-    constants: Vec<f64>,
-    rises: Vec<f64>,
+    /// `h (h / T)^k k! phi_k+1` of every mode, one list a power of time.
+    pub powers: [Vec<c64>; ORDERS],
+    /// The same times `beta` of every input, flat, powers of an input one behind the other.
+    pushes: Vec<f64>,
 }
 
 impl Step {
-    /// Of `length` s.
-    pub(super) fn new(system: &LinearSystem, length: f64) -> Self {
+    /// Of `length` s, where samples are `sample` s apart.
+    pub(super) fn new(system: &LinearSystem, length: f64, sample: f64) -> Self {
         let count = system.lambda.len();
-        let (mut decay, mut constant, mut rising) = (vec![0.0; 2 * count], Vec::new(), Vec::new());
+        let mut decay = vec![0.0; 2 * count];
+        let mut powers: [Vec<c64>; ORDERS] = std::array::from_fn(|_| Vec::with_capacity(count));
         for (k, lambda) in system.lambda.iter().enumerate() {
-            let [e, phi1, phi2] = integrals(lambda * length);
-            (decay[k], decay[count + k]) = (e.re, e.im);
-            constant.push(phi1 * length);
-            rising.push(phi2 * length);
-        }
-        let along = |factors: &[c64]| {
-            let mut all = Vec::with_capacity(2 * count * system.beta.len());
-            for beta in &system.beta {
-                all.extend(factors.iter().zip(beta).map(|(f, b)| (f * b).re));
-                all.extend(factors.iter().zip(beta).map(|(f, b)| (f * b).im));
+            let phi = phi(lambda * length);
+            (decay[k], decay[count + k]) = (phi[0].re, phi[0].im);
+            let mut factor = length;
+            for (power, list) in powers.iter_mut().enumerate() {
+                list.push(phi[power + 1] * factor);
+                factor *= (power + 1) as f64 * length / sample;
             }
-            all
-        };
-        let (constants, rises) = (along(&constant), along(&rising));
-        Self { length, decay, constant, rising, constants, rises }
+        }
+        let mut pushes = Vec::with_capacity(2 * count * ORDERS * system.beta.len());
+        for beta in &system.beta {
+            for list in &powers {
+                pushes.extend(list.iter().zip(beta).map(|(f, b)| (f * b).re));
+                pushes.extend(list.iter().zip(beta).map(|(f, b)| (f * b).im));
+            }
+        }
+        Self { length, sample, decay, powers, pushes }
     }
 
     /// One that is no step, to stand in for another.
     pub(super) fn empty() -> Self {
-        let none = Vec::new;
-        Self { length: 0.0, decay: none(), constant: Vec::new(), rising: Vec::new(), constants: none(), rises: none() }
+        Self { length: 0.0, sample: 0.0, decay: Vec::new(), powers: Default::default(), pushes: Vec::new() }
     }
 
-    fn of<'a>(&self, list: &'a [f64], input: usize) -> &'a [f64] {
+    /// Its length over the time between samples.
+    pub(super) fn share(&self) -> f64 {
+        self.length / self.sample
+    }
+
+    /// What a unit force at an input does that grows with a power of time.
+    fn of(&self, input: usize, power: usize) -> &[f64] {
         let width = self.decay.len();
-        &list[input * width..(input + 1) * width]
+        let at = (input * ORDERS + power) * width;
+        &self.pushes[at..at + width]
     }
 
     /// `z <- e^(lambda h) z` of one state or of many.
@@ -68,19 +76,24 @@ impl Step {
     /// Adds what a constant `force` does at an input.
     pub(super) fn push(&self, input: usize, force: f64, z: &mut [f64]) {
         if force != 0.0 {
-            z.iter_mut().zip(self.of(&self.constants, input)).for_each(|(z, p)| *z += p * force);
+            z.iter_mut().zip(self.of(input, 0)).for_each(|(z, p)| *z += p * force);
         }
     }
 
-    /// Adds what a drive does that goes from `start` to `end`.
-    pub(super) fn drive(&self, input: usize, start: f64, end: f64, z: &mut [f64]) {
-        let rise = end - start;
-        let both = self.of(&self.constants, input).iter().zip(self.of(&self.rises, input));
-        z.iter_mut().zip(both).for_each(|(z, (c, r))| *z += c * start + r * rise);
+    /// Adds what a drive does.
+    pub(super) fn drive(&self, input: usize, force: &Polynomial, z: &mut [f64]) {
+        for (power, c) in force.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+            z.iter_mut().zip(self.of(input, power)).for_each(|(z, p)| *z += p * c);
+        }
+    }
+
+    /// What a force at an input that rises about zero, to 1 at the end, has done there, along a functional.
+    pub(super) fn ramp(&self, input: usize, functional: &[f64]) -> f64 {
+        2.0 * dot(functional, self.of(input, 1)) / self.share() - self.receptance(input, functional)
     }
 
     /// What a constant unit force at an input has done at the end, along a functional.
     pub(super) fn receptance(&self, input: usize, functional: &[f64]) -> f64 {
-        dot(functional, self.of(&self.constants, input))
+        dot(functional, self.of(input, 0))
     }
 }

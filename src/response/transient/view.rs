@@ -1,5 +1,6 @@
 //! What a march through a record shows to the derivatives that go along with it.
 
+use super::hold::Polynomial;
 use super::step::Step;
 use super::system::Functional;
 
@@ -31,8 +32,8 @@ pub(super) struct Piece<'a> {
     pub step: &'a Step,
     /// Whether it is a step of full length.
     pub full: bool,
-    /// Drives at both ends, N.
-    pub drives: [&'a [f64]; 2],
+    /// Drives from its start on, N.
+    pub drives: &'a [Polynomial],
     pub forces: &'a [f64],
     pub side: &'a [f64],
     /// States at both ends.
