@@ -36,7 +36,10 @@ const CHAIN: Specimen = Specimen {
     hits: &[1, 4],
     rate: 512.0,
     known: "law = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = 4.0\n[[source]]\nlaw = \"viscous\"\ndofs = [4]\nstate = \"known\"\nc = 3.0\n",
-    hidden: ["law = \"coulomb\"\ndofs = [2]\nforce = 0.4\n", "law = \"cubic_stiffness\"\ndofs = [3]\nk = 4e9\n"],
+    hidden: [
+        "law = \"coulomb\"\ndofs = [2]\nforce = 0.4\n",
+        "law = \"cubic_stiffness\"\ndofs = [3]\nstiffness = 4e9\n",
+    ],
 };
 
 const BEAM: Specimen = Specimen {

@@ -130,7 +130,7 @@ struct Tables<'a> {
     channel: &'a [dashpot::exchange::mapping::ChannelTable],
 }
 
-/// A file of two blocks, sets "Run 1" and "Run 2", with a channel `Acc` each; the sensor is reversed in the second.
+/// A file of two blocks, sets "1" and "2", with a channel `Acc` each; the sensor is reversed in the second.
 fn two_sets(folder: &Path) {
     let block = |name: &str, sign: f64| {
         let lines = rows().map(|(t, force, a, _)| format!("{t},{force},{}\n", sign * a));
@@ -150,8 +150,8 @@ fn one_name_in_two_sets_is_two_channels_each_for_its_runs() {
     let run = |set: &str| format!("[[run]]\nfile = \"two.csv\"\nset = \"{set}\"\n");
     // One sensor at one DOF, whose sign is that of its set; then the sensor elsewhere in the second set.
     for (dof, sign) in [(1, "sign = -1\n"), (2, "sign = -1\n")] {
-        for (set, at) in [("Run 1", 1), ("Run 2", dof)] {
-            let tables = [force, &acc("Run 1", 1, ""), &acc("Run 2", dof, sign), &run(set)].concat();
+        for (set, at) in [("1", 1), ("2", dof)] {
+            let tables = [force, &acc("1", 1, ""), &acc("2", dof, sign), &run(set)].concat();
             let found = record(folder.path(), &tables).unwrap();
             let names: Vec<String> = found.channels().iter().map(ToString::to_string).collect();
             assert_eq!(names, ["force@1".to_owned(), format!("acc@{at}")], "{set}");
@@ -160,13 +160,12 @@ fn one_name_in_two_sets_is_two_channels_each_for_its_runs() {
         }
     }
     // Both at once, in a run that names no set.
-    let forces = force.replace("\"Force\"", "\"Force\"\nset = \"Run 1\"");
-    let tables =
-        [forces, acc("Run 1", 1, ""), acc("Run 2", 2, "sign = -1\n"), "[[run]]\nfile = \"two.csv\"\n".to_owned()];
+    let forces = force.replace("\"Force\"", "\"Force\"\nset = \"1\"");
+    let tables = [forces, acc("1", 1, ""), acc("2", 2, "sign = -1\n"), "[[run]]\nfile = \"two.csv\"\n".to_owned()];
     let found = record(folder.path(), &tables.concat()).unwrap();
     assert_eq!(found.channels().len(), 3);
     assert_eq!(found.samples(1), found.samples(2));
     // The same channel in the same set twice is refused as before.
-    let twice = [force, &acc("Run 1", 1, ""), &acc("Run 1", 1, ""), &run("Run 1")].concat();
+    let twice = [force, &acc("1", 1, ""), &acc("1", 1, ""), &run("1")].concat();
     assert!(record(folder.path(), &twice).unwrap_err().contains("the channel acc@1"));
 }

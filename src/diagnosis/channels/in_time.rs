@@ -5,13 +5,12 @@
 
 use super::cells::{Cells, Frequencies, Nearest, SMALL, by_distance, free_modes};
 use super::fault::ChannelFault;
-use super::lines::{Line, lines};
+use super::lines::{Line, highest as highest_of, lines};
 use super::search::{Search, modes_up_to};
 use crate::measurement::{Channel, Quantity, TransientRun};
 use crate::structure::Structure;
 use crate::structure::modes::Modes;
 use faer::c64;
-use std::f64::consts::PI;
 
 /// Damping ratio of the model of a line: next to a mode its amplitude is free, far from it damping hardly matters.
 const NOMINAL: f64 = 0.01;
@@ -21,7 +20,7 @@ const OF_MEDIAN: f64 = 0.1;
 /// What is wrong with the channels of the records that are used; none where the structure has no matrices.
 pub(crate) fn find_in_time(structure: &Structure, runs: &[TransientRun]) -> Vec<ChannelFault> {
     let used: Vec<&TransientRun> = runs.iter().filter(|run| run.enabled).collect();
-    let highest = used.iter().map(|run| PI / run.step()).fold(0.0, f64::max);
+    let highest = used.iter().map(|run| highest_of(run)).fold(0.0, f64::max);
     let Some(modes) = modes_up_to(structure, highest).filter(|_| structure.matrices().is_some()) else {
         return Vec::new();
     };
@@ -92,12 +91,10 @@ impl Numbers<'_> {
             nearest: self.nearest(modes, line, &near, &shape),
             free: near,
         };
+        let start = agreed(&cells);
+        cells.moved_on(&[start], modes);
         let free = cells.free_amplitudes(&cells.measured, None);
-        cells.model = cells.moved_by(&free);
-        for (&mode, b) in cells.free.iter().zip(&free) {
-            let all = cells.everywhere.iter_mut().enumerate();
-            all.for_each(|(dof, x)| *x += b * modes.shapes[(dof, mode)]);
-        }
+        cells.moved_on(&free, modes);
         cells.floor = floors(&cells.model, &turns, SMALL, |sizes| sizes.iter().copied().fold(0.0, f64::max));
         cells.moves = cells.model.iter().zip(&cells.floor).map(|(x, floor)| x.norm() >= *floor).collect();
         cells.floor.iter().all(|floor| floor.is_finite() && *floor > 0.0).then_some(cells)
@@ -142,6 +139,29 @@ impl Numbers<'_> {
             modes: told,
         })
     }
+}
+
+impl Cells {
+    /// Adds amplitudes of the free modes to the model.
+    fn moved_on(&mut self, free: &[c64], modes: &Modes) {
+        self.model = self.moved_by(free);
+        for (&mode, b) in self.free.iter().zip(free) {
+            let all = self.everywhere.iter_mut().enumerate();
+            all.for_each(|(dof, x)| *x += b * modes.shapes[(dof, mode)]);
+        }
+    }
+}
+
+/// The amplitude of the nearest mode by the one channel with which the others agree best. A fit of all would start at a channel that
+/// reads far too little: its relative error of a motion that the others show is the largest.
+fn agreed(cells: &Cells) -> c64 {
+    let by = |c: usize| (cells.measured[c] - cells.model[c]) / cells.shapes[0][c];
+    let left = |b: &c64| -> f64 {
+        let fit = cells.moved_by(&[*b]);
+        (0..fit.len()).map(|c| cells.error(c, cells.measured[c], fit[c])).sum()
+    };
+    let all = (0..cells.measured.len()).map(by).filter(|b| b.re.is_finite() && b.im.is_finite());
+    all.min_by(|a, b| left(a).total_cmp(&left(b))).unwrap_or_default()
 }
 
 /// Least amplitude that an error of each channel is measured by: a share of that of its kind, of translations or of rotations.

@@ -31,8 +31,10 @@ const REACH: f64 = 0.12;
 const HEIGHT: f64 = 50.0;
 /// Periods of a mode that the record covers at least.
 const PERIODS: f64 = 12.0;
-/// Lines on each side of a peak that are used where a force is measured.
+/// Lines on each side of a peak that are used where a force is measured, and their distance as a share of its frequency in long records:
+/// the slope of a mode is told from squared frequencies that differ by some parts in a thousand.
 const BESIDE: usize = 2;
+const APART: f64 = 1e-3;
 /// Share of the largest force of a line below which a force is at rest: the hammer that hits elsewhere in other runs.
 const AT_REST: f64 = 0.02;
 /// Share of the sampling rate up to which the filters of recorders leave signals as they are.
@@ -63,6 +65,11 @@ struct Weighted {
     noise: Vec<f64>,
 }
 
+/// Circular frequency up to which the lines of a run are used, rad/s.
+pub(super) fn highest(run: &TransientRun) -> f64 {
+    TAU * FLAT / run.step()
+}
+
 /// The lines of a record next to the modes that it shows; none on a base that moves.
 pub(super) fn lines(run: &TransientRun, modes: &Modes) -> Vec<Line> {
     if run.channels().iter().any(|channel| channel.quantity == Quantity::Base) {
@@ -73,8 +80,7 @@ pub(super) fn lines(run: &TransientRun, modes: &Modes) -> Vec<Line> {
         return Vec::new();
     }
     let length = run.step() * run.len() as f64;
-    let highest = TAU * FLAT / run.step();
-    let seen = |j: &usize| modes.omega[*j] * length > TAU * PERIODS && modes.omega[*j] < highest;
+    let seen = |j: &usize| modes.omega[*j] * length > TAU * PERIODS && modes.omega[*j] < highest(run);
     let peaks = (0..modes.len()).filter(seen).filter_map(|j| weighted.peak(modes, j));
     peaks.flat_map(|peak| weighted.about(run, peak)).collect()
 }
@@ -127,8 +133,11 @@ impl Weighted {
 
     /// The line of a peak, and those beside it where a force is measured.
     fn about(&self, run: &TransientRun, peak: usize) -> Vec<Line> {
-        let beside = if self.forces.is_empty() { 0 } else { BESIDE };
-        (peak - beside..=peak + beside).map(|k| self.line(run, k)).collect()
+        if self.forces.is_empty() {
+            return vec![self.line(run, peak)];
+        }
+        let stride = ((APART * peak as f64) as usize).max(1);
+        (0..=2 * BESIDE).map(|i| self.line(run, peak + i * stride - BESIDE * stride)).collect()
     }
 
     fn line(&self, run: &TransientRun, k: usize) -> Line {
