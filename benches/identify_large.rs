@@ -87,6 +87,7 @@ fn runs(structure: &Structure, seed: u64) -> Vec<Run> {
                 noise_ratio: 0.0,
                 findings: vec![],
                 per_unit_force: false,
+                functions: None,
             }
         })
         .collect()

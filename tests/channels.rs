@@ -1,6 +1,9 @@
 //! Reversed, exchanged and misread channels are named before any law is looked for, and mended in the mapping.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, missing_docs, reason = "tests")]
 
+#[path = "channels/in_time.rs"]
+mod in_time;
+
 use dashpot::cli::answer;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

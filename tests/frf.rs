@@ -3,6 +3,8 @@
 
 #[path = "frf/modes.rs"]
 mod modes;
+#[path = "frf/whole.rs"]
+mod whole;
 
 use dashpot::cli::answer;
 use dashpot::control::Control;

@@ -15,9 +15,9 @@ use faer::c64;
 use std::f64::consts::TAU;
 
 /// Angles of resonance tried first.
-const STARTS: usize = 180;
+const STARTS: usize = 60;
 /// Steps of its refinement.
-const STEPS: usize = 80;
+const STEPS: usize = 60;
 
 /// What the circle shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,13 +44,13 @@ pub fn circle_fit(omega: &[f64], receptance: &[c64]) -> Result<Circle, Classical
     }
     let mobility: Vec<c64> = omega.iter().zip(receptance).map(|(&w, h)| h * c64::new(0.0, w)).collect();
     let (centre, radius) = circle(&mobility)?;
-    let angles: Vec<f64> = mobility.iter().map(|y| (y - centre).im.atan2((y - centre).re)).collect();
+    let law = Law::new(omega, mobility.iter().map(|y| y - centre));
     // The angle at the resonance is where what the law leaves is least: a search over one unknown, coarse then fine.
     let mut best = (f64::NAN, f64::NAN, f64::INFINITY);
     let mut resonance = 0.0;
     for step in 0..STARTS {
         let candidate = TAU * step as f64 / STARTS as f64;
-        let found = law(omega, &angles, candidate)?;
+        let found = law.at(candidate);
         if found.2 < best.2 {
             (best, resonance) = (found, candidate);
         }
@@ -58,7 +58,7 @@ pub fn circle_fit(omega: &[f64], receptance: &[c64]) -> Result<Circle, Classical
     let mut width = TAU / STARTS as f64;
     for _ in 0..STEPS {
         for candidate in [resonance - width, resonance + width] {
-            let found = law(omega, &angles, candidate)?;
+            let found = law.at(candidate);
             if found.2 < best.2 {
                 (best, resonance) = (found, candidate);
             }
@@ -93,23 +93,46 @@ fn turn(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
-/// The law for a given angle of resonance: with `s, c` the sine and cosine of half the angle from there,
-/// `2 zeta wn w s = (wn^2 - w^2) c`, linear in `wn^2` and `zeta wn`. Gives `wn`, `zeta` and the squares of the angles left;
-/// infinite where no damped mode fits.
-fn law(omega: &[f64], angles: &[f64], resonance: f64) -> Result<(f64, f64, f64), ClassicalError> {
-    let scale = omega.iter().sum::<f64>() / omega.len() as f64;
-    let half: Vec<f64> = angles.iter().map(|a| 0.5 * turn(a - resonance)).collect();
-    let rows = filled(omega.len(), 2, |i, j| {
-        let w = omega[i] / scale;
-        if j == 0 { half[i].cos() } else { -2.0 * w * half[i].sin() }
-    });
-    let right: Vec<f64> = omega.iter().zip(&half).map(|(w, h)| (w / scale).powi(2) * h.cos()).collect();
-    let x = LeastSquares::new(rows.as_ref())?.solve(&right)?.x;
-    if !(x[0] > 0.0 && x[1] > 0.0) {
-        return Ok((f64::NAN, f64::NAN, f64::INFINITY));
+/// The speed along the circle: with `s, c` the sine and cosine of half the angle from the resonance,
+/// `2 zeta wn w s = (wn^2 - w^2) c`, linear in `wn^2` and `zeta wn`.
+struct Law {
+    /// Circular frequencies over their mean, rad/s.
+    scale: f64,
+    ratios: Vec<f64>,
+    /// Cosine and sine of half the angle of every line about the centre, and the angle itself.
+    halves: Vec<[f64; 2]>,
+    angles: Vec<f64>,
+}
+
+impl Law {
+    fn new(omega: &[f64], from_centre: impl Iterator<Item = c64>) -> Self {
+        let scale = omega.iter().sum::<f64>() / omega.len() as f64;
+        let angles: Vec<f64> = from_centre.map(|y| y.im.atan2(y.re)).collect();
+        let halves = angles.iter().map(|a| [(0.5 * a).cos(), (0.5 * a).sin()]).collect();
+        Self { scale, ratios: omega.iter().map(|w| w / scale).collect(), halves, angles }
     }
-    let expected = |w: f64| (x[0] - w * w).atan2(2.0 * x[1] * w);
-    let left = omega.iter().zip(&half).map(|(w, h)| turn(2.0 * (h - expected(w / scale))).powi(2)).sum();
-    let wn = x[0].sqrt();
-    Ok((wn * scale, x[1] / wn, left))
+
+    /// `wn`, `zeta` and the squares of the angles left for a given angle of resonance; infinite where no damped mode fits.
+    fn at(&self, resonance: f64) -> (f64, f64, f64) {
+        let (sin, cos) = (0.5 * resonance).sin_cos();
+        // Normal equations of `u c - 2 x w s = (w^2 - 1) c`, u = wn^2 - 1, x = zeta wn, frequencies in units of their mean.
+        let (mut normal, mut right) = ([0.0; 3], [0.0; 2]);
+        for (w, [c, s]) in self.ratios.iter().zip(&self.halves) {
+            let (a, b) = (c * cos + s * sin, -2.0 * w * (s * cos - c * sin));
+            let y = (w - 1.0) * (w + 1.0) * a;
+            normal = [normal[0] + a * a, normal[1] + a * b, normal[2] + b * b];
+            right = [right[0] + a * y, right[1] + b * y];
+        }
+        let determinant = normal[0] * normal[2] - normal[1] * normal[1];
+        let u = (right[0] * normal[2] - right[1] * normal[1]) / determinant;
+        let x = (right[1] * normal[0] - right[0] * normal[1]) / determinant;
+        if !(u > -1.0 && x > 0.0) {
+            return (f64::NAN, f64::NAN, f64::INFINITY);
+        }
+        let expected = |w: f64| 2.0 * (u - (w - 1.0) * (w + 1.0)).atan2(2.0 * x * w);
+        let lines = self.ratios.iter().zip(&self.angles);
+        let left = lines.map(|(&w, a)| turn(a - resonance - expected(w)).powi(2)).sum();
+        let wn = (1.0 + u).sqrt();
+        (wn * self.scale, x / wn, left)
+    }
 }

@@ -15,17 +15,22 @@ use super::data::ModalData;
 use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::neighbours::{self, Stretch};
+use super::normal_sums::NormalSums;
 use super::refine::{Band, refine};
 use super::responses::FrequencyResponses;
 use crate::control::Control;
-use crate::math::eigen::real_general;
+use crate::math::eigen::general_values;
 use crate::math::fill::filled_complex;
 use crate::math::least_squares::solve_symmetric;
 use faer::{Mat, c64};
 use std::f64::consts::PI;
 
-/// Orders of the denominator that are tried.
-const ORDERS: std::ops::RangeInclusive<usize> = 2..=12;
+/// Highest order of the denominator with one drive, and the number of its poles up to which it is raised with several: a
+/// band holds few modes, and the denominator has as many poles as its order times the drives.
+const MOST_ORDER: usize = 12;
+const MOST_POLES: usize = 48;
+/// Highest order with any number of drives: a mode must return in [`LEAST_ORDERS`], and noise may take it from one.
+const LEAST_MOST: usize = 6;
 /// Half-width of a band in half-power widths of its peak.
 const WIDTHS: f64 = 5.0;
 /// Least number of lines on each side of a peak.
@@ -100,16 +105,20 @@ pub fn extract(responses: &FrequencyResponses, control: &Control) -> Result<Extr
         let (what, found) = ("lines of frequency response around a resonance", responses.omega.len());
         return Err(ClassicalError::Few { what, needed: 2 * LEAST_LINES, found });
     }
-    let mut diagram = Vec::new();
-    let mut stretches = Vec::new();
-    for (k, &(first, last)) in bands.iter().enumerate() {
+    let found = control.map(bands.len(), |k| {
         control.check()?;
-        control.report(k as f64 / bands.len() as f64);
+        let (first, last) = bands[k];
         let band = Band::new(responses, first, last);
         let (poles, stable) = stable_poles(&band)?;
-        diagram.extend(poles);
         let modes = physical(&band, stable)?;
-        stretches.push(Stretch { band, modes });
+        Ok::<_, ClassicalError>((poles, Stretch { band, modes }))
+    });
+    control.report(0.5);
+    let (mut diagram, mut stretches) = (Vec::new(), Vec::new());
+    for one in found {
+        let (poles, stretch) = one?;
+        diagram.extend(poles);
+        stretches.push(stretch);
     }
     Ok(Extraction { modes: neighbours::settled(stretches, control)?, diagram })
 }
@@ -185,8 +194,11 @@ fn stable_poles(band: &Band) -> Result<(Vec<DiagramPole>, Vec<c64>), ClassicalEr
     let mut diagram: Vec<DiagramPole> = Vec::new();
     // Each chain: its newest pole and its length.
     let mut chains: Vec<(c64, usize, usize)> = Vec::new();
-    for order in ORDERS.filter(|order| 2 * (order + 1) * band.drives() < band.omega.len() * band.outputs()) {
-        for pole in poles(band, order)? {
+    let most = orders(band.drives());
+    let angles: Vec<f64> = band.omega.iter().map(|w| (w - band.omega[0]) * step(band) + 0.01 * PI).collect();
+    let sums = NormalSums::new(band, &angles, most);
+    for order in (2..=most).filter(|order| 2 * (order + 1) * band.drives() < band.omega.len() * band.outputs()) {
+        for pole in poles(band, &sums, order)? {
             let chain = chains.iter_mut().find(|(newest, _, at)| at + 1 == order && same(*newest, pole));
             let stable = chain.is_some();
             match chain {
@@ -206,14 +218,20 @@ fn stable_poles(band: &Band) -> Result<(Vec<DiagramPole>, Vec<c64>), ClassicalEr
     Ok((diagram, kept))
 }
 
+/// Angle a rad/s on the unit circle: a margin of one per cent of pi at both ends keeps the poles off the real axis.
+fn step(band: &Band) -> f64 {
+    0.98 * PI / (band.omega[band.omega.len() - 1] - band.omega[0])
+}
+
+/// The highest order that is tried with so many drives.
+fn orders(drives: usize) -> usize {
+    (MOST_POLES / drives).clamp(LEAST_MOST, MOST_ORDER)
+}
+
 /// Decaying poles of one order within the band.
-fn poles(band: &Band, order: usize) -> Result<Vec<c64>, ClassicalError> {
-    let m = band.drives();
-    let (first, last) = (band.omega[0], band.omega[band.omega.len() - 1]);
-    // A margin of one per cent of pi at both ends keeps the poles off the real axis.
-    let step = 0.98 * PI / (last - first);
-    let z: Vec<c64> = band.omega.iter().map(|w| c64::from_polar(1.0, (w - first) * step + 0.01 * PI)).collect();
-    let normal = normal_matrix(band, &z, order)?;
+fn poles(band: &Band, sums: &NormalSums, order: usize) -> Result<Vec<c64>, ClassicalError> {
+    let (m, first, step) = (band.drives(), band.omega[0], step(band));
+    let normal = sums.reduced(order)?;
     let size = m * order;
     let inner = normal.submatrix(m, m, size, size);
     let right = -normal.submatrix(m, 0, size, m);
@@ -230,44 +248,11 @@ fn poles(band: &Band, order: usize) -> Result<Vec<c64>, ClassicalError> {
             }
         }
     }
-    let (values, _) = real_general(companion.as_ref())?;
+    let values = general_values(companion.as_ref())?;
     let back = |u: &c64| {
         let s = -u.ln();
         (s.im > 0.01 * PI && s.im < 0.99 * PI && s.re < 0.0)
             .then(|| c64::new(s.re / step, first + (s.im - 0.01 * PI) / step))
     };
     Ok(values.iter().filter(|u| u.norm() > 0.0).filter_map(back).collect())
-}
-
-/// Reduced normal matrix, m (order + 1) square.
-fn normal_matrix(band: &Band, z: &[c64], order: usize) -> Result<Mat<f64>, ClassicalError> {
-    let (m, terms) = (band.drives(), order + 1);
-    let powers: Vec<Vec<c64>> = z.iter().map(|v| (0..terms).map(|r| v.powi(r as i32)).collect()).collect();
-    let mut normal = Mat::<f64>::zeros(m * terms, m * terms);
-    for output in 0..band.sensors() {
-        let mut r = Mat::<f64>::zeros(terms, terms);
-        let mut s = Mat::<f64>::zeros(terms, m * terms);
-        let mut t = Mat::<f64>::zeros(m * terms, m * terms);
-        for (k, power) in powers.iter().enumerate() {
-            let row: Vec<c64> = (0..m).map(|j| band.value(k, output, j)).collect();
-            let weight = band.weight(k, output);
-            let y: Vec<c64> = (0..m * terms).map(|c| -power[c / m] * row[c % m]).collect();
-            for (a, x) in power.iter().enumerate() {
-                for (b, other) in power.iter().enumerate() {
-                    r[(a, b)] += weight * (x.conj() * other).re;
-                }
-                for (c, value) in y.iter().enumerate() {
-                    s[(a, c)] += weight * (x.conj() * value).re;
-                }
-            }
-            for (c, left) in y.iter().enumerate() {
-                for (d, value) in y.iter().enumerate() {
-                    t[(c, d)] += weight * (left.conj() * value).re;
-                }
-            }
-        }
-        let solved = solve_symmetric(r.as_ref(), s.as_ref())?;
-        normal += t - s.transpose() * solved;
-    }
-    Ok(normal)
 }

@@ -1,9 +1,12 @@
 //! Methods of [`super::side_by_side`] that give damping ratios only, applied to the peaks and runs of each mode.
 
 use super::error::ClassicalError;
+use super::isolated::{about, alone};
 use super::measured_ratios::{SAME_MODE, circle_ratios, half_power_ratios};
 use super::resonant;
+use super::responses::FrequencyResponses;
 use super::side_by_side::{Applied, Data, Ratio, missing};
+use faer::c64;
 use std::f64::consts::{PI, TAU};
 
 /// Least ratio of forces between runs of one mode that can tell friction from viscous damping: along one sweep the other
@@ -31,13 +34,13 @@ impl Data<'_> {
     }
 
     pub(super) fn half_power(&self) -> Result<Applied, ClassicalError> {
-        let found = half_power_ratios(&self.model, self.responses()?);
+        let found = half_power_ratios(&self.model, self.responses()?, self.extracted);
         let what = "three lines within the half-power band of a peak, and lines on both flanks";
         self.of_ratios(found.iter().map(|r| (r.omega, r.ratio)), what)
     }
 
     pub(super) fn circle_fit(&self) -> Result<Applied, ClassicalError> {
-        let found = circle_ratios(&self.model, self.responses()?);
+        let found = circle_ratios(&self.model, self.responses()?, self.extracted);
         self.of_ratios(
             found.iter().map(|r| (r.omega, r.ratio)),
             "five lines around a peak, three within its half-power band",
@@ -46,8 +49,41 @@ impl Data<'_> {
 
     /// Loss of the drive's loop over the energy of the nearest mode: `zeta = area / (2 pi w_r^2 |q|^2)`.
     pub(super) fn loops(&self) -> Result<Applied, ClassicalError> {
-        let found: Vec<(f64, f64)> = self.modal_losses().iter().map(|l| (l.omega, l.ratio())).collect();
+        let of_runs = self.modal_losses();
+        let of_runs = of_runs.iter().map(|l| (l.omega, l.ratio()));
+        let found: Vec<(f64, f64)> = self.losses_of_modes().into_iter().chain(of_runs).collect();
         self.of_ratios(found, "runs near a resonance with a sensor at the drive")
+    }
+
+    /// Resonance and ratio of every mode that was extracted, by the loops under a unit force over the lines within its half-power
+    /// band, the other modes taken off, at the drive that moves most.
+    fn losses_of_modes(&self) -> Vec<(f64, f64)> {
+        let Some(responses) = &self.responses else { return Vec::new() };
+        let of_mode = |r: usize| {
+            let pole = self.extracted[r].pole;
+            let mode = self.model.nearest(pole.norm())?;
+            let phi = |j: usize| self.model.shapes[(responses.drives[j], mode)].abs();
+            let drives = (0..responses.drives.len()).filter(|&j| self.shows(responses, responses.drives[j], mode));
+            let drive = drives.max_by(|&a, &b| phi(a).total_cmp(&phi(b)))?;
+            let sensor = responses.sensors.iter().position(|dof| *dof == responses.drives[drive])?;
+            let within = |k: &usize| (responses.omega[*k] - pole.im).abs() < pole.re.abs();
+            let (mut area, mut energy) = (0.0, 0.0);
+            for k in about(&responses.omega, pole).filter(within) {
+                let x = alone(responses, self.extracted, r, (k, (sensor, drive)));
+                let (omega, q) = (responses.omega[k], x.norm() / phi(drive));
+                area += super::hysteresis_loop::from_harmonics(omega, &[x], &[c64::new(1.0, 0.0)], 1.0).area;
+                energy += TAU * omega * pole.norm() * q * q;
+            }
+            (energy > 0.0).then(|| (pole.norm(), area / energy))
+        };
+        (0..self.extracted.len()).filter_map(of_mode).collect()
+    }
+
+    /// Whether a drive with a sensor moves with a mode enough.
+    fn shows(&self, responses: &FrequencyResponses, drive: usize, mode: usize) -> bool {
+        let amplitude = |dof: usize| self.model.shapes[(dof, mode)].abs();
+        let largest = self.structure.translations().into_iter().map(amplitude).fold(0.0, f64::max);
+        responses.sensors.contains(&drive) && amplitude(drive) > SEEN * largest
     }
 
     /// Viscous part of the single-degree balance over all runs of a mode.
@@ -81,18 +117,13 @@ impl Data<'_> {
             .filter_map(|run| {
                 let [force] = run.fit.force_channels()[..] else { return None };
                 let drive = run.fit.channels[force].channel.dof;
-                responses.sensors.contains(&drive).then_some(())?;
                 let (f, x) = (run.fit.force(drive)?.amplitudes, run.fit.displacement(drive)?.amplitudes);
                 let mode = self.model.nearest(run.fit.omega)?;
                 let near = (run.fit.omega - self.model.omega[mode]).abs() < resonant::NEAR * self.model.omega[mode];
                 let phi = self.model.shapes[(drive, mode)];
-                let translations = self.structure.translations();
-                let amplitude = |dof: usize| self.model.shapes[(dof, mode)].abs();
-                let largest = translations.into_iter().map(amplitude).fold(0.0, f64::max);
                 let area = super::hysteresis_loop::from_harmonics(run.fit.omega, &x, &f, 1.0).area;
                 let q = x[0].norm() / phi.abs();
-                let seen = phi.abs() > SEEN * largest;
-                (near && seen).then_some(ModalLoss {
+                (near && self.shows(responses, drive, mode)).then_some(ModalLoss {
                     mode,
                     omega: run.fit.omega,
                     area,
@@ -134,10 +165,10 @@ impl ModalLoss {
 
     /// As one degree of freedom of unit mass.
     fn state(&self) -> super::energy_single::SteadyState {
-        let force = faer::c64::new(0.0, self.area / (PI * self.q));
+        let force = c64::new(0.0, self.area / (PI * self.q));
         super::energy_single::SteadyState {
             omega: self.omega,
-            displacement: vec![faer::c64::new(self.q, 0.0)],
+            displacement: vec![c64::new(self.q, 0.0)],
             force: vec![force],
         }
     }

@@ -1,7 +1,7 @@
-//! Maximum likelihood refinement of poles within a band, noise in proportion to the response:
+//! Maximum likelihood refinement of poles within a band, noise as it was measured, else in proportion to the response:
 //!
 //! ```text
-//! H_o(w) = sum_k R_ok / (i w - lambda_k) + P_o + Q_o (w - w0)        rows weighted by 1 / |H_o|
+//! H_o(w) = sum_k R_ok / (i w - lambda_k) + P_o + Q_o (w - w0)        rows weighted by 1 / deviation
 //! ```
 //!
 //! `P` and `Q` stand for all modes outside. The residues are linear and eliminated (variable projection in Kaufman's form); the
@@ -10,7 +10,7 @@
 use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::responses::FrequencyResponses;
-use crate::math::fill::filled_complex;
+use crate::math::fill::{filled, filled_complex};
 use faer::{Mat, c64};
 
 /// Most steps.
@@ -19,6 +19,9 @@ const STEPS: usize = 40;
 const SETTLED: f64 = 1e-9;
 /// Least magnitude in the weights, as a part of the largest in the band: noise does not vanish with the signal.
 const FLOOR: f64 = 0.02;
+/// Part of a value up to which resonances are those of constant poles: no test piece is more linear, and weights by the noise
+/// alone would leave the flanks of a quiet measurement out.
+const TRUE: f64 = 0.01;
 
 /// A stretch of lines.
 pub(super) struct Band {
@@ -28,17 +31,18 @@ pub(super) struct Band {
     measured: Vec<Mat<c64>>,
     /// What is fitted: the measured, other modes taken off where they are known.
     values: Vec<Mat<c64>>,
-    /// Largest magnitude over the band by sensor and drive.
-    largest: Vec<Vec<f64>>,
+    /// Deviation that a value is weighted by, sensors x drives.
+    scales: Vec<Mat<f64>>,
 }
 
 impl Band {
     pub(super) fn new(responses: &FrequencyResponses, first: usize, last: usize) -> Self {
         let values: Vec<Mat<c64>> = responses.values[first..=last].to_vec();
-        let top = |i: usize, j: usize| values.iter().map(|h| h[(i, j)].norm()).fold(f64::MIN_POSITIVE, f64::max);
-        let drives = responses.drives.len();
-        let largest = (0..responses.sensors.len()).map(|i| (0..drives).map(|j| top(i, j)).collect()).collect();
-        Self { omega: responses.omega[first..=last].to_vec(), largest, measured: values.clone(), values }
+        let mut scales = in_proportion(&values);
+        for (scale, deviation) in scales.iter_mut().zip(responses.deviations.iter().skip(first)) {
+            *scale = of_noise(scale, deviation);
+        }
+        Self { omega: responses.omega[first..=last].to_vec(), scales, measured: values.clone(), values }
     }
 
     /// Takes off what is known already: the modes of `others` with their conjugates, and the conjugates of the band's `own`.
@@ -78,8 +82,22 @@ impl Band {
     }
 
     fn scale(&self, line: usize, sensor: usize, drive: usize) -> f64 {
-        self.measured[line][(sensor, drive)].norm().max(FLOOR * self.largest[sensor][drive])
+        self.scales[line][(sensor, drive)]
     }
+}
+
+/// Measured deviations, but none better than modes are linear; `values` are those in proportion to the response.
+fn of_noise(values: &Mat<f64>, deviations: &Mat<f64>) -> Mat<f64> {
+    filled(values.nrows(), values.ncols(), |i, j| deviations[(i, j)].hypot(TRUE * values[(i, j)]))
+}
+
+/// Deviations in proportion to the values, as they are where nothing is known of them.
+fn in_proportion(values: &[Mat<c64>]) -> Vec<Mat<f64>> {
+    let (rows, columns) = values[0].shape();
+    let top = |i: usize, j: usize| values.iter().map(|h| h[(i, j)].norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let largest = filled(rows, columns, top);
+    let scale = |h: &Mat<c64>| filled(rows, columns, |i, j| h[(i, j)].norm().max(FLOOR * largest[(i, j)]));
+    values.iter().map(scale).collect()
 }
 
 /// One output's weighted fit at given poles.

@@ -1,4 +1,5 @@
-//! Frequency responses as measured: a line a run, harmonic 1 of every sensor over the exciter's force.
+//! Frequency responses as measured: on all lines of their files, or a line a run, harmonic 1 of every sensor over the
+//! exciter's force.
 
 use super::data::{LoadCase, ReceptanceData};
 use crate::math::fill::filled_complex;
@@ -6,7 +7,7 @@ use crate::measurement::Run;
 use faer::{Mat, c64};
 
 /// Relative difference of frequencies that counts as one line.
-const SAME_LINE: f64 = 1e-9;
+pub(super) const SAME_LINE: f64 = 1e-9;
 
 /// Receptances between some drives and some sensors on common lines.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,8 @@ pub struct FrequencyResponses {
     pub drives: Vec<usize>,
     /// Receptance at each line, sensors x drives, m/N.
     pub values: Vec<Mat<c64>>,
+    /// Standard deviation of the real part, and of the imaginary part, of every value; empty where it is not known.
+    pub deviations: Vec<Mat<f64>>,
 }
 
 /// One run that one exciter drove.
@@ -32,7 +35,7 @@ struct Line {
 impl FrequencyResponses {
     /// From the enabled runs with one exciter. Sensors are those of every such run; lines those that every drive has; a
     /// drive whose lines are not shared with the one that has most is left out. `None` without a run of that kind.
-    pub fn from_runs(runs: &[Run]) -> Option<Self> {
+    pub(super) fn from_steady(runs: &[Run]) -> Option<Self> {
         let lines: Vec<Line> = runs.iter().filter(|run| run.enabled).filter_map(line).collect();
         let first = lines.first()?;
         let everywhere = |dof: &usize| lines.iter().all(|line| line.motion.iter().any(|(d, _)| d == dof));
@@ -53,7 +56,7 @@ impl FrequencyResponses {
         };
         let matrix = |&w: &f64| filled_complex(sensors.len(), drives.len(), |i, j| value(w, sensors[i], drives[j]));
         let values = omega.iter().map(matrix).collect();
-        Some(Self { omega, sensors, drives, values })
+        Some(Self { omega, sensors, drives, values, deviations: Vec::new() })
     }
 
     /// The full receptance matrix, where all `n` DOFs are driven and measured.

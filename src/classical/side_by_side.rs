@@ -2,6 +2,7 @@
 
 use super::data::{Damping, ModalData, ReceptanceData};
 use super::error::ClassicalError;
+use super::extracted_mode::ExtractedMode;
 use super::incompleteness::known_damping;
 use super::method::Method;
 use super::poly_reference::{Extraction, extract};
@@ -95,6 +96,8 @@ pub(super) struct Data<'a> {
     sources: &'a [Source],
     pub(super) runs: &'a [Run],
     pub(super) responses: Option<FrequencyResponses>,
+    /// Modes that were extracted from the responses; none where lines are few.
+    pub(super) extracted: &'a [ExtractedMode],
     receptance: Option<ReceptanceData>,
     modal: Result<ModalData, String>,
 }
@@ -118,7 +121,8 @@ pub fn side_by_side(
     let responses = FrequencyResponses::from_runs(runs);
     let (extraction, modal, modes_from) = complex_modes(matrices, &model, responses.as_ref(), control)?;
     let receptance = responses.as_ref().and_then(|r| r.full(structure.len()));
-    let data = Data { structure, matrices, model, sources, runs, responses, receptance, modal };
+    let extracted = extraction.as_ref().map_or(&[][..], |extraction| &extraction.modes);
+    let data = Data { structure, matrices, model, sources, runs, responses, extracted, receptance, modal };
     let reference = reference(structure, sources);
     let truth = match &reference {
         Some(c) => Some((c, damped_modes_from(&data.model, c.as_ref())?)),
@@ -135,17 +139,8 @@ pub fn side_by_side(
     let measured = measured(&entries, data.modal.as_ref().map_or(0, ModalData::len));
     let spread = spread(&entries, measured);
     let beside = beside(references, data.modal.as_ref().ok(), &data.model);
-    Ok(SideBySide {
-        modes_from,
-        modal: data.modal.ok(),
-        extraction,
-        entries,
-        reference,
-        measured,
-        reference_ratios,
-        beside,
-        spread,
-    })
+    let modal = data.modal.ok();
+    Ok(SideBySide { modes_from, modal, extraction, entries, reference, measured, reference_ratios, beside, spread })
 }
 
 /// Modes up to the highest that is seen.

@@ -7,6 +7,7 @@ use super::run_flags;
 use super::table::number;
 use crate::classical::FrequencyResponses;
 use crate::classical::measured_ratios::{circle_ratios, half_power_ratios};
+use crate::classical::poly_reference::extract;
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
@@ -73,7 +74,7 @@ pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(
     say_other_kinds(&project);
     super::remarks::tell_remarks(&project);
     super::reduction::warn(&project.structure);
-    let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice))?;
+    let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice, &control))?;
     for r in &ratios {
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);
         eprintln!("damping ratio at {:.4} Hz: {value:.4} % +- {deviation:.4} %", r.omega / TAU);
@@ -97,14 +98,16 @@ fn say_other_kinds(project: &Project) {
     }
 }
 
-fn measured(project: &Project, choice: &Path) -> anyhow::Result<Vec<MeasuredRatio>> {
+fn measured(project: &Project, choice: &Path, control: &Control) -> anyhow::Result<Vec<MeasuredRatio>> {
     let by = match choice.to_str() {
         Some("half-power") => half_power_ratios,
         Some("circle-fit") => circle_ratios,
         _ => return Ok(read_ratios(choice)?),
     };
     let responses = FrequencyResponses::from_runs(&project.runs).context("no run has exactly one exciter")?;
-    let found = by(&project.structure.modes()?, &responses);
+    // Where lines are too few for modes the peaks are looked at as they are.
+    let modes = extract(&responses, control).map_or_else(|_| Vec::new(), |extraction| extraction.modes);
+    let found = by(&project.structure.modes()?, &responses, &modes);
     anyhow::ensure!(
         !found.is_empty(),
         "no resonance has three runs within its half-power band: measure more frequencies, or give the ratios in a file"

@@ -5,11 +5,10 @@ use crate::control::Control;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::diagnosis::diagnose::faults_of_channels;
 use crate::diagnosis::result::Diagnosis;
-use crate::diagnosis::{DiagnosisError, Problem};
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;
 use crate::exchange::project::plan;
-use crate::session::validation::{only_records, problem};
+use crate::session::validation::{ValidationError, agreement, channel_faults, has_records, is_component, problem};
 use crate::session::{Document, Session, mending};
 use anyhow::Context;
 use std::path::Path;
@@ -36,7 +35,7 @@ pub(super) fn mended_first(
     file: &Path,
     control: &Control,
 ) -> anyhow::Result<(Project, Option<MendedFirst>)> {
-    if only_records(&project) || project.structure.matrices().is_none() {
+    if project.structure.matrices().is_none() || is_component(&project) {
         return Ok((project, None));
     }
     let context = || file.display().to_string();
@@ -64,11 +63,15 @@ pub(super) fn mended_first(
 }
 
 /// Faults that a mapping can mend, with a model that has this loss factor beside what is known.
-fn faults_with(project: &Project, loss_factor: f64, control: &Control) -> Result<Vec<ChannelFault>, DiagnosisError> {
+fn faults_with(project: &Project, loss_factor: f64, control: &Control) -> Result<Vec<ChannelFault>, ValidationError> {
     let whole = Source::candidate(Effect::LossFactor, Place::Whole(None)).with_coefficient(loss_factor);
-    let mut damped = project.sources.clone();
-    damped.push(Source { state: State::Known, ..whole });
-    let (mut faults, _) = faults_of_channels(&Problem { sources: &damped, ..problem(project) }, control)?;
+    let mut damped = project.clone();
+    damped.sources.push(Source { state: State::Known, ..whole });
+    let mut faults = if has_records(project) {
+        channel_faults(&damped, control)?
+    } else {
+        faults_of_channels(&problem(&damped), control)?.0
+    };
     faults.retain(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
     Ok(faults)
 }
@@ -79,9 +82,8 @@ impl MendedFirst {
     /// # Errors
     /// What keeps that model from being compared with the channels as they were read.
     pub(super) fn before(self, known: &[Source], diagnosis: &mut Diagnosis, control: &Control) -> anyhow::Result<()> {
-        let as_read = Problem { sources: known, ..problem(&self.unmended) };
-        let (_, asis) = faults_of_channels(&as_read, control)?;
-        diagnosis.follows(asis, self.faults);
+        let as_read = Project { sources: known.to_vec(), ..self.unmended };
+        diagnosis.follows(agreement(&as_read, control)?, self.faults);
         Ok(())
     }
 }

@@ -73,6 +73,15 @@ pub fn real_general(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), EigenErr
     dashpot_numerics::real_general(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
 }
 
+/// Eigenvalues of a general real matrix.
+///
+/// # Errors
+/// [`EigenError`] when an entry is not finite or the iteration does not converge.
+pub fn general_values(a: MatRef<'_, f64>) -> Result<Vec<c64>, EigenError> {
+    check_finite(a)?;
+    dashpot_numerics::eigenvalues(a).ok_or(EigenError::NoConvergence { size: a.nrows() })
+}
+
 /// `(A + A^T) / 2`.
 pub fn symmetrised(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| 0.5 * (a[(i, j)] + a[(j, i)]))

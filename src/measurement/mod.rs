@@ -29,6 +29,7 @@ mod sums;
 mod transient_correction;
 mod transient_quality;
 pub mod transient_run;
+mod whole_functions;
 
 pub use channel::{Channel, ChannelName, Quantity, Unit};
 pub use finding::{Finding, Flag};
@@ -40,3 +41,4 @@ pub use record::{Record, RecordError};
 pub use run::{Amplitudes, ChannelCorrection, Run};
 pub use transient_correction::TransientRunError;
 pub use transient_run::{TransientLabel, TransientRun};
+pub use whole_functions::{WholeFunction, WholeFunctions};

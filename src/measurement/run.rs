@@ -9,6 +9,7 @@ use super::finding::{Finding, Flag};
 use super::fit::{ChannelFit, FitError, HarmonicFit, fit, turn_covariance};
 use super::record::Record;
 use super::signal::references;
+use super::whole_functions::WholeFunctions;
 use super::{frequency, quality};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -37,6 +38,8 @@ pub struct Run {
     pub findings: Vec<Finding>,
     /// Whether it is a line of a frequency response, per unit force: what depends on amplitude cannot be told from it.
     pub per_unit_force: bool,
+    /// The frequency responses that it is a line of, on all their lines.
+    pub functions: Option<Arc<WholeFunctions>>,
 }
 
 /// The known error of a channel: recorded = gain x true, late by the delay.
@@ -48,6 +51,19 @@ pub struct ChannelCorrection {
     pub delay: f64,
     /// How many times too large it reads; not zero.
     pub gain: f64,
+}
+
+impl ChannelCorrection {
+    /// Whether it is that of a channel.
+    pub(crate) fn is_of(&self, channel: &Channel) -> bool {
+        self.channel.quantity == channel.quantity && self.channel.label == channel.label
+    }
+
+    /// What undoes the error at a circular frequency, `exp(i omega delay) / gain`.
+    pub(crate) fn undone(&self, omega: f64) -> c64 {
+        let (sin, cos) = (omega * self.delay).sin_cos();
+        c64::new(cos, sin) / self.gain
+    }
 }
 
 /// Harmonics of the displacement or the force at a DOF, with their covariance.
@@ -79,9 +95,21 @@ impl Run {
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
         let fit = corrected(raw, corrections);
         findings.extend(quality::assess_harmonics(&fit));
-        let (session, insisted, per_unit_force) = (None, false, false);
+        let (session, insisted, per_unit_force, functions) = (None, false, false, None);
         let record = Some(record);
-        Ok(Self { file, level, session, enabled, insisted, record, fit, noise_ratio, findings, per_unit_force })
+        Ok(Self {
+            file,
+            level,
+            session,
+            enabled,
+            insisted,
+            record,
+            fit,
+            noise_ratio,
+            findings,
+            per_unit_force,
+            functions,
+        })
     }
 
     /// Takes harmonics that were fitted elsewhere.
@@ -94,9 +122,10 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        let (session, insisted, per_unit_force) = (None, false, false);
+        let (session, insisted, per_unit_force, functions) = (None, false, false, None);
         let noise_ratio = noise_ratio(&fit);
-        Self { file, level, session, enabled, insisted, record: None, noise_ratio, fit, findings, per_unit_force }
+        let record = None;
+        Self { file, level, session, enabled, insisted, record, noise_ratio, fit, findings, per_unit_force, functions }
     }
 
     /// Whether it takes part in fits and errors: it is wanted, and its record is of a steady motion or is wanted all the
@@ -234,9 +263,7 @@ fn corrected(mut fit: HarmonicFit, corrections: &[ChannelCorrection]) -> Harmoni
     let omega = fit.omega;
     for channel in &mut fit.channels {
         for error in corrections {
-            let same =
-                error.channel.quantity == channel.channel.quantity && error.channel.label == channel.channel.label;
-            if same {
+            if error.is_of(&channel.channel) {
                 correct(channel, error, omega);
             }
         }
@@ -246,12 +273,7 @@ fn corrected(mut fit: HarmonicFit, corrections: &[ChannelCorrection]) -> Harmoni
 
 /// Divides a channel by the transfer function of its error.
 fn correct(channel: &mut ChannelFit, error: &ChannelCorrection, omega: f64) {
-    let factors: Vec<c64> = (1..=channel.amplitudes.len())
-        .map(|h| {
-            let (sin, cos) = (h as f64 * omega * error.delay).sin_cos();
-            c64::new(cos, sin) / error.gain
-        })
-        .collect();
+    let factors: Vec<c64> = (1..=channel.amplitudes.len()).map(|h| error.undone(h as f64 * omega)).collect();
     for (y, z) in channel.amplitudes.iter_mut().zip(&factors) {
         *y *= z;
     }

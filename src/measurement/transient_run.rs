@@ -50,6 +50,11 @@ pub struct TransientLabel {
 }
 
 impl TransientRun {
+    /// The same run of another record with the same instants.
+    pub(crate) fn with_record(&self, record: Arc<Record>) -> Self {
+        Self { record, ..self.clone() }
+    }
+
     /// Numbers of the samples of the record that are used.
     pub fn range(&self) -> Range<usize> {
         self.samples.clone()

@@ -9,9 +9,12 @@ use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::file::ProjectFile;
-use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
+use crate::measurement::{Channel, Quantity};
 use crate::structure::Structure;
+
+/// Behind the name of a channel that not all records have; no label ends so.
+const OF_SOME: &str = " ?";
 
 /// The command that mends a fault.
 ///
@@ -38,15 +41,20 @@ fn driven(project: &Project) -> Vec<String> {
     labels
 }
 
-/// The channels of the records; none where their files have different ones.
+/// The channels of the records, each once; those that not all have end in [`OF_SOME`].
 fn of_records(project: &Project) -> Vec<String> {
-    let steady = project.runs.iter().filter_map(|run| run.record.as_ref()).map(|record| record.channels());
-    let all = steady.map(<[_]>::iter).map(|channels| channels.map(ToString::to_string).collect::<Vec<_>>());
-    let others = project.transient_runs.iter().map(|run| run.channels().iter().map(ToString::to_string).collect());
-    let mut all = all.chain(others);
-    let first: Vec<String> = all.next().unwrap_or_default();
-    let same = |other: Vec<String>| other.len() == first.len() && first.iter().all(|name| other.contains(name));
-    if all.all(same) { first } else { Vec::new() }
+    let names = |channels: &[Channel]| channels.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let steady = project.runs.iter().filter_map(|run| run.record.as_ref()).map(|record| names(record.channels()));
+    let all: Vec<Vec<String>> = steady.chain(project.transient_runs.iter().map(|run| names(run.channels()))).collect();
+    let mut different: Vec<String> = Vec::new();
+    for name in all.iter().flatten() {
+        if !different.contains(name) {
+            different.push(name.clone());
+        }
+    }
+    let everywhere = |name: &String| all.iter().all(|own| own.contains(name));
+    let marked = |name: String| if everywhere(&name) { name } else { name + OF_SOME };
+    different.into_iter().map(marked).collect()
 }
 
 /// Mends the mapping of the channels: their `[[channel]]`, those that are written for all channels of the records, and the
@@ -65,7 +73,7 @@ pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) ->
     }
     if file.channel.is_empty() {
         if mending.records.is_empty() {
-            return Err(cannot("the records have different channels, so that one mapping does not hold for all"));
+            return Err(cannot("no record has it"));
         }
         file.channel = mending.records.iter().filter_map(|name| plain(name)).collect();
     }
@@ -73,39 +81,34 @@ pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) ->
 }
 
 /// The table of a channel that a record names as the project does.
-fn plain(name: &str) -> Option<ChannelTable> {
+fn plain(marked: &str) -> Option<ChannelTable> {
+    let name = marked.strip_suffix(OF_SOME).unwrap_or(marked);
     let (quantity, dof) = parse_name(name).ok()?;
+    let optional = name != marked;
     let name = name.to_owned();
-    let table = ChannelTable {
-        name,
-        set: None,
-        quantity,
-        dof,
-        unit: None,
-        sign: None,
-        factor: None,
-        delay: None,
-        optional: false,
-    };
+    let table =
+        ChannelTable { name, set: None, quantity, dof, unit: None, sign: None, factor: None, delay: None, optional };
     Some(table)
 }
 
+/// Mends every table of the channels: one channel has several where it is of several sets.
 fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), String> {
-    let place = |name: &String| {
-        tables.iter().position(|table| table.channel() == *name).ok_or_else(|| format!("no [[channel]] is {name}"))
+    let rows_of = |name: &String| {
+        let rows: Vec<usize> = (0..tables.len()).filter(|&row| tables[row].channel() == *name).collect();
+        if rows.is_empty() { Err(format!("no [[channel]] is {name}")) } else { Ok(rows) }
     };
     if mending.elsewhere {
-        let [row, label] = [&mending.channels[0], &mending.channels[1]];
-        let row = place(row)?;
-        responses::label_of(label).clone_into(&mut tables[row].dof);
+        let label = responses::label_of(&mending.channels[1]);
+        rows_of(&mending.channels[0])?.into_iter().for_each(|row| label.clone_into(&mut tables[row].dof));
         return Ok(());
     }
-    let rows = mending.channels.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
+    let rows = mending.channels.iter().map(rows_of).collect::<Result<Vec<_>, _>>()?;
     match (mending.factor, &rows[..]) {
-        (Some(factor), rows) => rows.iter().for_each(|&row| divide(&mut tables[row], factor)),
-        (None, &[a, b]) => {
-            let dof = tables[a].dof.clone();
-            tables[a].dof = std::mem::replace(&mut tables[b].dof, dof);
+        (Some(factor), rows) => rows.iter().flatten().for_each(|&row| divide(&mut tables[row], factor)),
+        (None, [first, second]) => {
+            let [a, b] = [first, second].map(|rows| tables[rows[0]].dof.clone());
+            first.iter().for_each(|&row| tables[row].dof.clone_from(&b));
+            second.iter().for_each(|&row| tables[row].dof.clone_from(&a));
         }
         (None, _) => return Err("two channels are exchanged, no more and no fewer".to_owned()),
     }

@@ -3,12 +3,16 @@
 use crate::balance::loops::ComponentError;
 use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
+use crate::diagnosis::channels::mending::{mended_in_time, mended_run};
+use crate::diagnosis::channels::{ChannelFault, find_in_time};
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
-use crate::diagnosis::diagnose::diagnose_without;
+use crate::diagnosis::diagnose::{diagnose_without, faults_of_channels};
 use crate::diagnosis::records::compare::OneRecord;
-use crate::diagnosis::records::{self, RecordComparison, RecordError, Records, compare_records, diagnose_records};
+use crate::diagnosis::records::{
+    self, RecordComparison, RecordError, Records, agreement_with_records, compare_records, diagnose_records,
+};
 use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
-use crate::diagnosis::result::{Early, RecordErrors};
+use crate::diagnosis::result::{Early, RecordErrors, Step};
 use crate::diagnosis::together::together;
 use crate::diagnosis::{Comparison, Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;
@@ -95,6 +99,57 @@ pub fn compared_with_effects(
 /// # Errors
 /// [`ValidationError`]: runs, records or a model that cannot be compared.
 pub fn diagnosed(project: &Project, control: &Control, early: &Early<'_>) -> Result<Diagnosis, ValidationError> {
+    let faults = channel_faults(project, control)?;
+    if faults.is_empty() {
+        return diagnosed_as_read(project, control, early);
+    }
+    let mut diagnosis = diagnosed_as_read(&without(project, &faults), control, early)?;
+    diagnosis.follows(agreement(project, control)?, faults);
+    Ok(diagnosis)
+}
+
+/// Reversed, exchanged and misread channels where records that are not steady are used: in the steady runs beside them, and in the
+/// records with these mended. Without such records the search in steady runs looks for them itself.
+///
+/// # Errors
+/// [`ValidationError`]: runs or a model that cannot be compared.
+pub(crate) fn channel_faults(project: &Project, control: &Control) -> Result<Vec<ChannelFault>, ValidationError> {
+    if !has_records(project) || is_component(project) || project.structure.matrices().is_none() {
+        return Ok(Vec::new());
+    }
+    let mut faults = Vec::new();
+    if !only_records(project) {
+        faults = faults_of_channels(&problem(project), control)?.0;
+    }
+    let runs: Vec<TransientRun> =
+        project.transient_runs.iter().map(|run| mended_in_time(run, &faults, &project.structure)).collect();
+    faults.extend(find_in_time(&project.structure, &runs));
+    Ok(faults)
+}
+
+/// The project with the faults of its channels mended.
+fn without(project: &Project, faults: &[ChannelFault]) -> Project {
+    let on = &project.structure;
+    Project {
+        runs: project.runs.iter().map(|run| mended_run(run, faults, on)).collect(),
+        transient_runs: project.transient_runs.iter().map(|run| mended_in_time(run, faults, on)).collect(),
+        ..project.clone()
+    }
+}
+
+/// How the model as it is agrees with what the channels read: with the steady runs, where there are some.
+///
+/// # Errors
+/// [`ValidationError`]: runs, records or a model that cannot be compared.
+pub(crate) fn agreement(project: &Project, control: &Control) -> Result<Step, ValidationError> {
+    if only_records(project) {
+        return Ok(agreement_with_records(&records(project)?, control)?);
+    }
+    Ok(faults_of_channels(&problem(project), control)?.1)
+}
+
+/// The same of channels that read rightly, or are not to be doubted.
+fn diagnosed_as_read(project: &Project, control: &Control, early: &Early<'_>) -> Result<Diagnosis, ValidationError> {
     if only_records(project) {
         return diagnosed_from_records(project, control, early);
     }

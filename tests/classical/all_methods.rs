@@ -80,6 +80,7 @@ fn sweep(structure: &Structure) -> Vec<Run> {
                 noise_ratio: 0.0,
                 findings: vec![],
                 per_unit_force: false,
+                functions: None,
             });
         }
     }
@@ -155,7 +156,8 @@ fn measured_ratios_know_their_deviation() {
     let (runs, model) = (sweep(&structure), structure.modes().unwrap());
     let responses = FrequencyResponses::from_runs(&runs).unwrap();
     let exact = modal(&structure, &truth(), 5);
-    let found: [Vec<MeasuredRatio>; 2] = [half_power_ratios(&model, &responses), circle_ratios(&model, &responses)];
+    let found: [Vec<MeasuredRatio>; 2] =
+        [half_power_ratios(&model, &responses, &[]), circle_ratios(&model, &responses, &[])];
     for ratios in found {
         assert_eq!(ratios.len(), 5);
         for (p, r) in ratios.iter().enumerate() {

@@ -45,6 +45,7 @@ fn runs(structure: &Structure, sensors: usize) -> Vec<(Measured, Expanded)> {
                 noise_ratio: 0.0,
                 findings: vec![],
                 per_unit_force: false,
+                functions: None,
             };
             let measured = Measured::new(&run).unwrap();
             let expanded = expander.expand(&measured, Acting::NOTHING).unwrap();

@@ -56,7 +56,7 @@ fn measured(
         }
         values.push(h);
     }
-    FrequencyResponses { omega, sensors, drives, values }
+    FrequencyResponses { omega, sensors, drives, values, deviations: Vec::new() }
 }
 
 #[test]

@@ -129,3 +129,43 @@ fn proposals_read_back_as_a_template() {
 struct Tables<'a> {
     channel: &'a [dashpot::exchange::mapping::ChannelTable],
 }
+
+/// A file of two blocks, sets "1" and "2", with a channel `Acc` each; the sensor is reversed in the second.
+fn two_sets(folder: &Path) {
+    let block = |name: &str, sign: f64| {
+        let lines = rows().map(|(t, force, a, _)| format!("{t},{force},{}\n", sign * a));
+        format!("{name}\nTime [s],Force [N],Acc [m/s^2]\n{}\n", lines.collect::<String>())
+    };
+    std::fs::write(folder.join("two.csv"), block("Run 1", 1.0) + &block("Run 2", -1.0)).unwrap();
+}
+
+#[test]
+fn one_name_in_two_sets_is_two_channels_each_for_its_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    two_sets(folder.path());
+    let force = "[[channel]]\nname = \"Force\"\nquantity = \"force\"\ndof = 1\n";
+    let acc = |set: &str, dof: usize, more: &str| {
+        format!("[[channel]]\nname = \"Acc\"\nset = \"{set}\"\nquantity = \"acc\"\ndof = {dof}\n{more}")
+    };
+    let run = |set: &str| format!("[[run]]\nfile = \"two.csv\"\nset = \"{set}\"\n");
+    // One sensor at one DOF, whose sign is that of its set; then the sensor elsewhere in the second set.
+    for (dof, sign) in [(1, "sign = -1\n"), (2, "sign = -1\n")] {
+        for (set, at) in [("1", 1), ("2", dof)] {
+            let tables = [force, &acc("1", 1, ""), &acc("2", dof, sign), &run(set)].concat();
+            let found = record(folder.path(), &tables).unwrap();
+            let names: Vec<String> = found.channels().iter().map(ToString::to_string).collect();
+            assert_eq!(names, ["force@1".to_owned(), format!("acc@{at}")], "{set}");
+            let same = rows().zip(found.samples(1)).all(|((_, _, a, _), read)| (a - read).abs() < 1e-15);
+            assert!(same, "{set}: {:?}", &found.samples(1)[..8]);
+        }
+    }
+    // Both at once, in a run that names no set.
+    let forces = force.replace("\"Force\"", "\"Force\"\nset = \"1\"");
+    let tables = [forces, acc("1", 1, ""), acc("2", 2, "sign = -1\n"), "[[run]]\nfile = \"two.csv\"\n".to_owned()];
+    let found = record(folder.path(), &tables.concat()).unwrap();
+    assert_eq!(found.channels().len(), 3);
+    assert_eq!(found.samples(1), found.samples(2));
+    // The same channel in the same set twice is refused as before.
+    let twice = [force, &acc("1", 1, ""), &acc("1", 1, ""), &run("1")].concat();
+    assert!(record(folder.path(), &twice).unwrap_err().contains("the channel acc@1"));
+}

@@ -12,7 +12,7 @@ const NEAR: f64 = 0.2;
 /// A run with a mode that near, relative, is left out where its channels are too few to leave the mode free.
 const TOO_NEAR: f64 = 0.1;
 /// A channel below this share of the largest of its kind in a run says nothing of itself.
-const SMALL: f64 = 0.1;
+pub(super) const SMALL: f64 = 0.1;
 /// Runs whose frequencies differ by less, natural logarithm, count as one: they show the same mode.
 const ONE_FREQUENCY: f64 = 0.1;
 /// Steps of the fit by least absolute deviations.
@@ -31,31 +31,31 @@ pub(super) struct Cells {
     pub measured: Vec<c64>,
     /// Whether the model moves there enough.
     pub moves: Vec<bool>,
-    model: Vec<c64>,
+    pub(super) model: Vec<c64>,
     /// What the model says at every DOF of the structure, m or rad.
-    everywhere: Vec<c64>,
+    pub(super) everywhere: Vec<c64>,
     /// Least amplitude that an error is measured by.
-    floor: Vec<f64>,
+    pub(super) floor: Vec<f64>,
     /// Numbers of the free modes, and their shapes at the channels.
-    free: Vec<usize>,
-    shapes: Vec<Vec<f64>>,
+    pub(super) free: Vec<usize>,
+    pub(super) shapes: Vec<Vec<f64>>,
     /// The nearest of them.
-    nearest: Option<Nearest>,
+    pub(super) nearest: Option<Nearest>,
 }
 
 /// The mode next to a run.
 #[derive(Clone)]
-struct Nearest {
-    mode: usize,
+pub(super) struct Nearest {
+    pub mode: usize,
     /// Circular frequencies of the mode and of the run, rad/s.
-    omega: [f64; 2],
+    pub omega: [f64; 2],
     /// Modal force, N / sqrt(kg).
-    force: c64,
+    pub force: c64,
     /// Number of the force among the names of the forces, and its amplitude, N, where it is the only one.
-    alone: Option<(usize, c64)>,
+    pub alone: Option<(usize, c64)>,
     /// As many modes as the channels tell apart, its own first, and their shapes at these.
-    modes: Vec<usize>,
-    shapes: Vec<Vec<f64>>,
+    pub modes: Vec<usize>,
+    pub shapes: Vec<Vec<f64>>,
 }
 
 /// One run next to a mode.
@@ -86,17 +86,28 @@ pub(super) fn cells(
     predictions: &[RunPrediction],
 ) -> (Vec<String>, Vec<Cells>) {
     let [names, forces] = data.channel_names();
-    let mut frequencies: Vec<f64> = Vec::new();
+    let mut frequencies = Frequencies::default();
     let mut all = Vec::new();
     for (run, prediction) in data.runs.iter().zip(predictions) {
-        let near = |&known: &f64| (known / run.omega).ln().abs() < ONE_FREQUENCY;
-        let frequency = frequencies.iter().position(near).unwrap_or_else(|| {
-            frequencies.push(run.omega);
-            frequencies.len() - 1
-        });
+        let frequency = frequencies.number(run.omega);
         all.extend(Cells::new(structure, modes, run, prediction, [&names, &forces], frequency));
     }
     (names, all)
+}
+
+/// Frequencies that count as different, rad/s.
+#[derive(Default)]
+pub(super) struct Frequencies(Vec<f64>);
+
+impl Frequencies {
+    /// Number of the one that a frequency counts as.
+    pub(super) fn number(&mut self, omega: f64) -> usize {
+        let near = |&known: &f64| (known / omega).ln().abs() < ONE_FREQUENCY;
+        self.0.iter().position(near).unwrap_or_else(|| {
+            self.0.push(omega);
+            self.0.len() - 1
+        })
+    }
 }
 
 impl Cells {
@@ -197,7 +208,7 @@ impl Cells {
     }
 
     /// What the model says at the channels with these amplitudes of the free modes added.
-    fn moved_by(&self, free: &[c64]) -> Vec<c64> {
+    pub(super) fn moved_by(&self, free: &[c64]) -> Vec<c64> {
         let moved = |c: usize| free.iter().zip(&self.shapes).fold(self.model[c], |x, (b, shape)| x + b * shape[c]);
         (0..self.model.len()).map(moved).collect()
     }
@@ -248,7 +259,7 @@ fn amplitudes(shapes: &[Vec<f64>], motion: &[c64], weights: &[f64]) -> Option<Ve
 }
 
 /// The modes that are free at a frequency, the nearest first; none where that takes too many for the channels.
-fn free_modes(modes: &Modes, omega: f64, channels: usize) -> Option<Vec<usize>> {
+pub(super) fn free_modes(modes: &Modes, omega: f64, channels: usize) -> Option<Vec<usize>> {
     let distance = |j: usize| (modes.omega[j] / omega - 1.0).abs();
     let mut near = by_distance(modes, omega);
     near.retain(|&j| distance(j) < NEAR);
@@ -261,7 +272,7 @@ fn free_modes(modes: &Modes, omega: f64, channels: usize) -> Option<Vec<usize>> 
 }
 
 /// All modes, the nearest to a frequency first.
-fn by_distance(modes: &Modes, omega: f64) -> Vec<usize> {
+pub(super) fn by_distance(modes: &Modes, omega: f64) -> Vec<usize> {
     let distance = |j: usize| (modes.omega[j] / omega - 1.0).abs();
     let mut all: Vec<usize> = (0..modes.len()).collect();
     all.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));

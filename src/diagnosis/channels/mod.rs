@@ -16,10 +16,14 @@
 mod cells;
 mod common;
 pub(crate) mod fault;
+mod in_time;
+mod lines;
+pub(crate) mod mending;
 mod places;
 mod search;
 
 pub use fault::{ChannelFault, Fault};
+pub(crate) use in_time::find_in_time;
 pub(crate) use search::{find, place_of_force};
 
 use crate::diagnosis::residual::data::{ChannelData, Data};

@@ -29,23 +29,21 @@ const SMALL: usize = 200;
 const BEYOND: f64 = 1.3;
 /// Largest spread of a factor over the frequencies, natural logarithm.
 const SPREAD: f64 = 0.2;
+/// The same of a factor that is none of a known misreading, and the least of it: a spring or mass that is missing at the sensor, or a
+/// sensor elsewhere, changes the shapes of the modes each by its own factor.
+const EVEN: f64 = 0.04;
+const NO_GAIN: f64 = 0.2;
 
 /// The faults of the channels of `data`, the plainest first; none where the structure has no modes.
 pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<ChannelFault> {
     let Some(modes) = modes(predictor.structure(), data) else { return Vec::new() };
     let (names, cells) = cells(predictor.structure(), &modes, data, predictions);
-    let structure = predictor.structure();
     let dofs = dofs(data, &names);
-    let mut search = Search { structure, modes: &modes, names, dofs, cells, faults: Vec::new() };
     let forces = &data.channel_names()[1];
-    // A channel that is wrong for itself may hide what all have in common, and the other way round.
-    let shared = search.take_common(forces);
-    while search.faults.len() < MOST && search.step() {}
-    if !shared {
-        search.take_common(forces);
-    }
-    search.take_moved_force(data, forces);
-    search.faults
+    let all = || data.runs.iter().flat_map(|run| &run.forces);
+    let driven: Vec<usize> =
+        forces.iter().map(|name| all().find(|force| force.name == *name).map_or(0, |force| force.dof)).collect();
+    Search::new(predictor.structure(), &modes, (names, dofs), cells).all_faults(forces, &driven)
 }
 
 /// The DOF at which the only force of all runs fits the motion best, where it fits it well.
@@ -66,9 +64,13 @@ fn dofs(data: &Data, names: &[String]) -> Vec<usize> {
     names.iter().map(of).collect()
 }
 
-/// Modes up to the highest frequency that was measured and a little beyond; all of a small structure.
+/// Modes up to the highest frequency that was measured.
 fn modes(structure: &Structure, data: &Data) -> Option<Modes> {
-    let highest = data.runs.iter().map(|run| run.omega).fold(0.0, f64::max);
+    modes_up_to(structure, data.runs.iter().map(|run| run.omega).fold(0.0, f64::max))
+}
+
+/// Modes up to a frequency (rad/s) and a little beyond; all of a small structure.
+pub(super) fn modes_up_to(structure: &Structure, highest: f64) -> Option<Modes> {
     let large = structure.matrices().filter(|_| structure.len() > SMALL);
     let lowest = large.and_then(|matrices| LowestModes::new(matrices, BEYOND * highest, 1).ok().flatten());
     lowest.map(|lowest| lowest.modes).or_else(|| structure.modes().ok())
@@ -81,7 +83,7 @@ struct Hypothesis {
     channels: [usize; 2],
 }
 
-struct Search<'a> {
+pub(super) struct Search<'a> {
     structure: &'a Structure,
     modes: &'a Modes,
     names: Vec<String>,
@@ -89,6 +91,8 @@ struct Search<'a> {
     dofs: Vec<usize>,
     cells: Vec<Cells>,
     faults: Vec<ChannelFault>,
+    /// Whether factors are named that are none of a known misreading.
+    any_gain: bool,
 }
 
 /// Errors of the channels under a hypothesis.
@@ -97,13 +101,32 @@ struct Errors {
     cells: Vec<Vec<f64>>,
 }
 
-impl Search<'_> {
-    /// Finds the force that acts at another DOF than is said.
-    fn take_moved_force(&mut self, data: &Data, forces: &[String]) {
-        let all = || data.runs.iter().flat_map(|run| &run.forces);
-        let dof = |name: &String| all().find(|force| force.name == *name).map_or(0, |force| force.dof);
-        let dofs: Vec<usize> = forces.iter().map(dof).collect();
-        self.faults.extend(places::of_force(forces, &dofs, self.structure, self.modes, &self.cells));
+impl<'a> Search<'a> {
+    /// For channels with these names, at these DOFs.
+    pub(super) fn new(
+        structure: &'a Structure,
+        modes: &'a Modes,
+        (names, dofs): (Vec<String>, Vec<usize>),
+        cells: Vec<Cells>,
+    ) -> Self {
+        Self { structure, modes, names, dofs, cells, faults: Vec::new(), any_gain: false }
+    }
+
+    /// Names factors that are none of a known misreading too: for data from which no law of a gain is estimated.
+    pub(super) fn knows_any_gain(&mut self) {
+        self.any_gain = true;
+    }
+
+    /// All faults, the plainest first; the names of the forces and the DOFs at which they are said to act.
+    pub(super) fn all_faults(mut self, forces: &[String], driven: &[usize]) -> Vec<ChannelFault> {
+        // A channel that is wrong for itself may hide what all have in common, and the other way round.
+        let shared = self.take_common(forces);
+        while self.faults.len() < MOST && self.step() {}
+        if !shared {
+            self.take_common(forces);
+        }
+        self.faults.extend(places::of_force(forces, driven, self.structure, self.modes, &self.cells));
+        self.faults
     }
 
     /// Finds what all motions or the force read wrongly and mends it; whether there was that.
@@ -197,9 +220,10 @@ impl Search<'_> {
         at.iter().map(|values| (!values.is_empty()).then(|| mean(values))).collect()
     }
 
-    /// The factor by which a channel differs from what the others say of it, if it is one of a known misreading.
+    /// The factor by which a channel differs from what the others say of it, if it is one of a known misreading, or plain at
+    /// frequencies enough where any gain is named.
     fn factor(&self, channel: usize) -> Option<f64> {
-        let mut ratios = Vec::new();
+        let (mut ratios, mut frequencies) = (Vec::new(), Vec::new());
         for cells in &self.cells {
             let Some(i) = cells.channels.iter().position(|&c| c == channel).filter(|&i| cells.moves[i]) else {
                 continue;
@@ -207,6 +231,7 @@ impl Search<'_> {
             let fit = cells.fitted(&cells.measured, Some(i))[i];
             if fit.norm() > 0.0 && cells.measured[i].norm() > 0.0 {
                 ratios.push(cells.measured[i] / fit);
+                frequencies.push(cells.frequency);
             }
         }
         if ratios.is_empty() {
@@ -217,7 +242,11 @@ impl Search<'_> {
         let spread = median(&logs.iter().map(|log| (log - middle).abs()).collect::<Vec<f64>>());
         let cosines: Vec<f64> = ratios.iter().map(|z| z.re / z.norm()).collect();
         let sign = if median(&cosines) < 0.0 { -1.0 } else { 1.0 };
-        known_factor(&self.names[channel], middle.exp()).filter(|_| spread < SPREAD).map(|factor| sign * factor)
+        frequencies.sort_unstable();
+        frequencies.dedup();
+        let known = known_factor(&self.names[channel], middle.exp()).filter(|_| spread < SPREAD);
+        let plain = self.any_gain && frequencies.len() >= places::FEWEST && spread < EVEN && middle.abs() > NO_GAIN;
+        known.or(plain.then(|| middle.exp())).map(|factor| sign * factor)
     }
 
     /// Names of the channels of a fault; of one that is elsewhere its name there too.

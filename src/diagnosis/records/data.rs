@@ -317,7 +317,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
 }
 
 /// Noise of a signal from the highest quarter of its spectrum, taken as white; at least rounding of the largest sample.
-pub(super) fn noise_of(signal: &[f64], step: f64) -> f64 {
+pub(crate) fn noise_of(signal: &[f64], step: f64) -> f64 {
     let largest = signal.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
     let Some(spectrum) = Spectrum::new(signal, step) else { return largest * 1e-3 };
     let count = spectrum.amplitude.len();

@@ -104,6 +104,15 @@ pub fn diagnose_records(
     Ok(diagnosis)
 }
 
+/// How the model as it is agrees with the records.
+///
+/// # Errors
+/// As [`diagnose_records`].
+pub(crate) fn agreement_with_records(records: &Records, control: &Control) -> Result<Step, RecordError> {
+    let bare = started(records, &[], control)?;
+    Ok(Step { added: Vec::new(), error: bare.error(records, 0.0, 1.0)?, misfit: misfit(&bare) })
+}
+
 impl Search<'_> {
     /// Searches beside `bare`, the model on whole records, and concludes.
     fn explain(&self, bare: &FittedRecords, diagnosis: &mut Diagnosis, early: &Early) -> Result<(), RecordError> {

@@ -47,5 +47,6 @@ mod wider;
 
 pub use compare::{RecordComparison, compare_records};
 pub use data::{RecordError, Records};
+pub(crate) use diagnose::agreement_with_records;
 pub use diagnose::diagnose_records;
 pub use missing_force::missing_force;

@@ -77,9 +77,8 @@ pub(crate) fn read_mapped(
         template.channels
     };
     let present: Vec<ChannelTable>;
-    let channels = if template.sets.is_empty() && channels.iter().any(|table| table.optional) {
-        present =
-            channels.iter().filter(|table| !table.optional || holds(&file, table, template.set)).cloned().collect();
+    let channels = if template.sets.is_empty() && channels.iter().any(|table| table.optional || table.set.is_some()) {
+        present = present_in(&file, channels, template.set);
         &present
     } else {
         channels
@@ -132,6 +131,16 @@ pub(crate) fn read_mapped(
 fn own_channels(file: &DataFile) -> Vec<ChannelTable> {
     let sets = file.contents().sets.iter();
     sets.flat_map(|set| set.channels.iter().filter_map(|channel| own_name(&set.name, channel))).collect()
+}
+
+/// The tables that are meant for a run of a file: not those of another set of the same name, nor optional ones that it lacks.
+fn present_in(file: &DataFile, channels: &[ChannelTable], run_set: Option<&str>) -> Vec<ChannelTable> {
+    let has = |set: &str| match run_set {
+        Some(own) => own == set,
+        None => file.contents().sets.iter().any(|other| other.name == set),
+    };
+    let meant = channels.iter().filter(|table| table.is_meant(channels, &has));
+    meant.filter(|table| !table.optional || holds(file, table, run_set)).cloned().collect()
 }
 
 /// Whether a file has the channel of a table.

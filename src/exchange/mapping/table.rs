@@ -52,4 +52,18 @@ impl ChannelTable {
     pub fn channel(&self) -> String {
         format!("{}@{}", self.quantity.word(), self.dof)
     }
+
+    /// Whether both name a set and these differ.
+    pub fn is_of_another_set(&self, other: &Self) -> bool {
+        matches!((&self.set, &other.set), (Some(own), Some(other)) if own != other)
+    }
+
+    /// Whether it is meant for data of which `has` says the sets: of tables of one name, or of one channel, with different sets
+    /// those whose set is there; every other table.
+    pub fn is_meant(&self, all: &[Self], has: &dyn Fn(&str) -> bool) -> bool {
+        let Some(set) = &self.set else { return true };
+        let alike = |other: &&Self| other.name == self.name || other.channel() == self.channel();
+        let others = all.iter().filter(alike).filter(|other| other.is_of_another_set(self));
+        has(set) || !others.filter_map(|other| other.set.as_deref()).any(has)
+    }
 }

@@ -15,8 +15,9 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTa
     let mut channels: Vec<ChannelTable> = Vec::new();
     for table in root.tables("channel", "[[channel]]")? {
         let channel = one(&table)?;
-        // One or the other, where both need not be there.
-        let same = |other: &ChannelTable| other.channel() == channel.channel() && !(other.optional && channel.optional);
+        // One or the other, where both need not be there, and one in each of two sets.
+        let apart = |other: &ChannelTable| (other.optional && channel.optional) || other.is_of_another_set(&channel);
+        let same = |other: &ChannelTable| other.channel() == channel.channel() && !apart(other);
         if let Some(first) = channels.iter().position(same) {
             let what = format!("the channel {}", channel.channel());
             return Err(table.error("dof", Problem::Twice { what, first: lines.channel[first] }));

@@ -91,7 +91,7 @@ impl Plan {
         }
         let (file, settings) = (planned.name(), self.settings());
         let (level, enabled, frequency_hz) = (planned.level, planned.enabled, planned.frequency_hz);
-        let corrections = self.corrections();
+        let corrections = self.corrections_in(planned.set.as_deref());
         let record = Arc::new(record);
         let run =
             Run::from_record(file, level, enabled, record.clone(), frequency_hz, settings.harmonics, &corrections)
@@ -124,15 +124,22 @@ impl Plan {
             enabled: planned.enabled,
             exponential_window_s: planned.exponential_window_s,
         };
-        let run = TransientRun::new(label, Arc::new(record), &self.corrections()).map_err(|error| {
-            let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
-            self.run_error(index, key, Problem::Transient { file: planned.name(), error })
-        })?;
+        let run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref())).map_err(
+            |error| {
+                let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
+                self.run_error(index, key, Problem::Transient { file: planned.name(), error })
+            },
+        )?;
         self.in_time_on_its_base(index, run)
     }
 
     /// Known errors of the measuring chain, one entry a channel.
     pub fn corrections(&self) -> Vec<ChannelCorrection> {
+        self.corrections_in(None)
+    }
+
+    /// The same of a run in a set of its file.
+    fn corrections_in(&self, set: Option<&str>) -> Vec<ChannelCorrection> {
         let mut corrections: Vec<ChannelCorrection> = Vec::new();
         for sensor in &self.sensors {
             let Some(channel) = self.channel(sensor) else { continue };
@@ -145,7 +152,8 @@ impl Plan {
                 _ => corrections[at].gain = sensor.parameters[0],
             }
         }
-        for table in &self.file.channel {
+        let has = |other: &str| set.is_none_or(|own| own == other);
+        for table in self.file.channel.iter().filter(|table| table.is_meant(&self.file.channel, &has)) {
             let channel = match table.quantity {
                 Quantity::Base => base_channel(&table.dof, &self.structure),
                 quantity => {

@@ -6,6 +6,7 @@
 
 pub(crate) mod lines;
 pub(crate) mod variance;
+mod whole;
 
 use super::channel::Channel;
 use super::fit::{ChannelFit, HarmonicFit};
@@ -13,6 +14,7 @@ use super::run::{ChannelCorrection, Run};
 use faer::{Mat, c64};
 use lines::Density;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Least standard deviation over the modulus: coherences of 1 and written digits promise more than transducers hold.
 const LEAST_DEVIATION: f64 = 1e-4;
@@ -73,10 +75,12 @@ impl ResponseSet {
         let densities: Vec<Density> =
             references.iter().map(|members| self.density(members, &variances, selection.band)).collect();
         let chosen = lines::choose(&densities, selection.most);
+        let whole = Arc::new(self.whole(selection.band, &variances, corrections));
         let mut runs = Vec::new();
         for (members, lines) in references.iter().zip(&chosen) {
             for &line in lines {
-                runs.push(self.run(members, line, &variances, enabled, corrections));
+                let run = self.run(members, line, &variances, enabled, corrections);
+                runs.push(Run { functions: Some(whole.clone()), ..run });
             }
         }
         let remarks = self.remarks(&references, &chosen);
