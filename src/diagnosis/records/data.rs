@@ -19,8 +19,9 @@ const MOST_MODES: usize = 8;
 const SEEN: f64 = 20.0;
 /// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
 const ABOVE: f64 = 2.0;
-/// Sampling rate over the highest frequency of motion that is enough: it holds the fourth harmonic of a law that is not linear.
-const OVERSAMPLED: f64 = 10.0;
+/// Sampling rate over the highest frequency of motion that is enough: it holds the harmonics of a law that is not linear, and
+/// steps of the model lose no phase over some hundred periods.
+const OVERSAMPLED: f64 = 20.0;
 /// Samples that a record keeps in any case, and that are enough of a long one.
 const FEWEST: usize = 2000;
 const MANY: usize = 8000;
@@ -236,9 +237,9 @@ impl RecordData {
     /// and every fit would take as many times longer. Of a long record that is so many times the frequency of its largest motion.
     fn at_lower_rate(&self, last_hz: f64) -> Option<TransientRun> {
         let highest = self.highest_hz.clamp(last_hz, ABOVE * last_hz);
-        let factor = |times: f64, frequency: f64| (1.0 / (times * frequency * self.step)) as usize;
-        let enough = factor(OVERSAMPLED, highest).min(self.len() / FEWEST);
-        let long = factor(2.0 * OVERSAMPLED, self.dominant_hz).min(self.len() / MANY);
+        let factor = |frequency: f64| (1.0 / (OVERSAMPLED * frequency * self.step)) as usize;
+        let enough = factor(highest).min(self.len() / FEWEST);
+        let long = factor(self.dominant_hz).min(self.len() / MANY);
         let factor = enough.max(long);
         if factor > 1 { self.run.decimated(factor) } else { None }
     }
