@@ -171,7 +171,8 @@ impl<'a> Records<'a> {
         let of = |(c, (e, noise)): (usize, (&Vec<f64>, &f64))| {
             let mut own = deviations(e, *noise, record.step, self.corner_hz());
             let by_force = record.by_force.get(c).into_iter().flatten();
-            own.iter_mut().zip(by_force).for_each(|(s, v)| *s = s.mul_add(*s, *v).sqrt());
+            // What is left above the modes that are followed may be the noise of the force: it counts once.
+            own.iter_mut().zip(by_force).for_each(|(s, v)| *s = s.max((noise * noise + v).sqrt()));
             own
         };
         left.iter().zip(&record.noise).enumerate().map(of).collect()

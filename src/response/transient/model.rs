@@ -7,26 +7,14 @@ use super::hold::{Hold, Polynomial, shifted};
 use super::march::March;
 use super::reduction::Reduction;
 use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
-use super::step::Step;
-use super::system::{Functional, LinearChange, LinearSystem, Matrices};
+use super::system::{LinearChange, LinearSystem, Matrices};
 use super::view::{Sensitivity, View};
-use super::writer::{Writer, beyond_mean};
+use super::writer::{Sensor, Writer, beyond_mean};
 use crate::effects::Leg;
 use crate::measurement::{Channel, Quantity};
 use dashpot_numerics::{dot, scalar_products};
 use faer::Mat;
 use std::f64::consts::PI;
-
-/// What a channel shows.
-pub(super) struct Sensor {
-    /// Times the motion is differentiated; none for a force.
-    order: Option<i32>,
-    pub(super) functional: Functional,
-    /// Shape along the reduced coordinates, for accelerations.
-    pub(super) pattern: Option<Vec<f64>>,
-    /// The drive that a force channel repeats.
-    drive: Option<usize>,
-}
 
 /// A model that predicts records.
 pub struct TransientModel {
@@ -150,13 +138,6 @@ impl TransientModel {
         [0, 1, 2].map(list)
     }
 
-    /// What a channel of an order of differentiation shows of each kept mode.
-    pub(super) fn modes_seen(&self, order: i32) -> Vec<Functional> {
-        let unit =
-            |r: usize| -> Vec<f64> { (0..self.system.coordinates()).map(|k| f64::from(u8::from(k == r))).collect() };
-        (0..self.kept()).map(|r| self.system.functional(&unit(r), order)).collect()
-    }
-
     /// Unit of velocity entries of the initial state.
     fn rate(&self, r: usize) -> f64 {
         if self.reduction.omega[r] > 0.0 { self.reduction.omega[r] } else { 1.0 }
@@ -211,7 +192,7 @@ impl TransientModel {
             };
             sensitivities.push(Sensitivity { state, own, change });
         }
-        let writer = Writer::new(self, &changes, &Step::new(&self.system, steps[0], steps[1]));
+        let writer = Writer::new(&self.system, &self.sensors, [elements.len(), self.kept()], &changes, steps);
         let from = (state, drives.len());
         (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), steps), writer)
     }

@@ -1,10 +1,20 @@
 //! What channels show of the state at a sample.
 
 use super::march::March;
-use super::model::TransientModel;
 use super::step::Step;
-use super::system::{Functional, LinearChange};
+use super::system::{Functional, LinearChange, LinearSystem};
 use dashpot_numerics::{dot, scalar_products};
+
+/// What a channel shows.
+pub(super) struct Sensor {
+    /// Times the motion is differentiated; none for a force.
+    pub order: Option<i32>,
+    pub functional: Functional,
+    /// Shape along the reduced coordinates, for accelerations.
+    pub pattern: Option<Vec<f64>>,
+    /// The drive that a force channel repeats.
+    pub drive: Option<usize>,
+}
 
 /// What turns states into samples of the channels.
 pub(super) struct Writer {
@@ -28,32 +38,42 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn new(model: &TransientModel, changes: &[LinearChange], step: &Step) -> Self {
-        let width = 2 * model.system.lambda.len() + model.system.beta.len();
-        let mut rows = Vec::with_capacity(changes.len() * model.sensors.len() * width);
+    /// Of a linear part under `elements` elements, whose first `kept` coordinates are kept modes; steps of `steps[0]` s, samples `steps[1]`
+    /// s apart.
+    pub(super) fn new(
+        system: &LinearSystem,
+        sensors: &[Sensor],
+        [elements, kept]: [usize; 2],
+        changes: &[LinearChange],
+        steps: [f64; 2],
+    ) -> Self {
+        let step = Step::new(system, steps[0], steps[1]);
+        let width = 2 * system.lambda.len() + system.beta.len();
+        let mut rows = Vec::with_capacity(changes.len() * sensors.len() * width);
         for change in changes {
-            for sensor in &model.sensors {
+            for sensor in sensors {
                 match &sensor.pattern {
                     Some(pattern) => {
-                        let Functional { row, inputs } = model.system.acceleration_change(pattern, change);
+                        let Functional { row, inputs } = system.acceleration_change(pattern, change);
                         rows.extend(row.iter().chain(&inputs));
                     }
                     None => rows.resize(rows.len() + width, 0.0),
                 }
             }
         }
-        let late = |f: &Functional| (0..model.legs.len()).map(|l| step.ramp(l, &f.row)).collect::<Vec<f64>>();
+        let late = |f: &Functional| (0..elements).map(|l| step.ramp(l, &f.row)).collect::<Vec<f64>>();
         Self {
-            sensors: model.sensors.iter().flat_map(|s| s.functional.row.iter().copied()).collect(),
+            sensors: sensors.iter().flat_map(|s| s.functional.row.iter().copied()).collect(),
             changes: rows,
             width,
-            late: model.sensors.iter().flat_map(|s| late(&s.functional)).collect(),
-            elements: model.legs.len(),
+            late: sensors.iter().flat_map(|s| late(&s.functional)).collect(),
+            elements,
             moved: false,
             state: Vec::new(),
             by_change: Vec::new(),
             seen: Vec::new(),
-            modes: [0, 1, 2].map(|order| model.modes_seen(order).into_iter().map(|f| (f.clone(), late(&f))).collect()),
+            modes: [0, 1, 2]
+                .map(|order| modes_seen(system, kept, order).into_iter().map(|f| (f.clone(), late(&f))).collect()),
         }
     }
 
@@ -86,4 +106,10 @@ impl Writer {
 /// By how much the force of every element on the structure is beyond its mean over the last step.
 pub(super) fn beyond_mean(inputs: &[f64], march: &March) -> Vec<f64> {
     inputs.iter().zip(&march.forces).map(|(now, mean)| now + mean).collect()
+}
+
+/// What a channel of an order of differentiation shows of each kept mode.
+fn modes_seen(system: &LinearSystem, kept: usize, order: i32) -> Vec<Functional> {
+    let unit = |r: usize| -> Vec<f64> { (0..system.coordinates()).map(|k| f64::from(u8::from(k == r))).collect() };
+    (0..kept).map(|r| system.functional(&unit(r), order)).collect()
 }
