@@ -125,7 +125,7 @@ impl Run {
         let (session, insisted, per_unit_force, functions) = (None, false, false, None);
         let noise_ratio = noise_ratio(&fit);
         let record = None;
-        Self { file, level, session, enabled, insisted, record, noise_ratio, fit, findings, per_unit_force, functions }
+        Self { file, level, session, enabled, insisted, record, fit, noise_ratio, findings, per_unit_force, functions }
     }
 
     /// Whether it takes part in fits and errors: it is wanted, and its record is of a steady motion or is wanted all the

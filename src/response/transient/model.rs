@@ -247,12 +247,11 @@ impl TransientModel {
         inputs[count..].copy_from_slice(u);
         let beyond = beyond_mean(&inputs, march);
         for (c, (sensor, list)) in self.sensors.iter().zip(channels).enumerate() {
-            list.push(match sensor.drive {
-                Some(drive) => u.get(drive).copied().unwrap_or(0.0),
-                None => {
-                    let seen = dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs);
-                    seen + writer.late(c, &beyond)
-                }
+            list.push(if let Some(drive) = sensor.drive {
+                u.get(drive).copied().unwrap_or(0.0)
+            } else {
+                let seen = dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs);
+                seen + writer.late(c, &beyond)
             });
         }
         if derivatives.is_empty() {
