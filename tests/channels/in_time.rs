@@ -143,15 +143,16 @@ fn exchanged(header: &str, a: &str, b: &str) -> String {
     header.replace(a, "other").replace(b, a).replace("other", b)
 }
 
+fn diagnosed(more: &[&str], paths: &[&Path]) -> Value {
+    let text = run(&[&["diagnose", "--json", "--seconds", SECONDS], more].concat(), paths);
+    serde_json::from_str(&text).unwrap()
+}
+
 /// What `diagnose` says of the channels, and what it says of the project that it mended.
 fn said(folder: &Path) -> (Value, Vec<String>) {
     let mended = folder.join("mended.toml");
-    let of = |more: &[&str], paths: &[&Path]| -> Value {
-        let text = run(&[&["diagnose", "--json", "--seconds", SECONDS], more].concat(), paths);
-        serde_json::from_str(&text).unwrap()
-    };
-    let document = of(&["--apply"], &[&mended, &folder.join("project.toml")]);
-    let again = of(&[], &[&mended]);
+    let document = diagnosed(&["--apply"], &[&mended, &folder.join("project.toml")]);
+    let again = diagnosed(&[], &[&mended]);
     (document, words(&again).into_iter().map(str::to_owned).collect())
 }
 
@@ -240,7 +241,7 @@ fn sound_channels_raise_no_alarm() {
     for (tests, factor) in [(Tests::Hammer, 0.98), (Tests::Decay, 1.02), (Tests::Both, 1.01)] {
         for (specimen, hidden) in [(&CHAIN, Some(1)), (&BEAM, None), (&CHAIN, None), (&BEAM, Some(1))] {
             let folder = specimen.recorded(tests, factor, hidden);
-            let (document, _) = said(folder.path());
+            let document = diagnosed(&[], &[&folder.path().join("project.toml")]);
             assert!(words(&document).is_empty(), "{factor} {hidden:?}: {:?}", words(&document));
         }
     }

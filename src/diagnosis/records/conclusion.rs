@@ -10,6 +10,7 @@ use super::telling::{added, corrections, corrections_of_parts, suggestions, word
 use super::told::added_as_told;
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::updating::correction::Correction;
+use crate::effects::Constant;
 use crate::structure::Part;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
@@ -29,19 +30,27 @@ const UNLIKELY: f64 = 1e-3;
 const OPEN: f64 = 0.05;
 
 impl Search<'_> {
-    /// Fills `diagnosis` with what was found; effects that leave no less than corrections of the model do are none.
+    /// Fills `diagnosis` with what was found; masses and springs that leave no less than corrections of the model do are none, where
+    /// these agree with the records.
     pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let before = diagnosis.clone();
         self.conclude_found(by_size, diagnosis)?;
         let of_model = |s: &&Step| s.added.is_empty();
         let corrected = diagnosis.steps.iter().filter(of_model).map(|s| s.error).fold(f64::INFINITY, f64::min);
-        let is_needless = diagnosis.steps.last().is_some_and(|told| !told.added.is_empty() && told.error >= corrected);
+        let is_constant = |a: &Added| matches!(a.source.effect.constant(), Some(Constant::Mass | Constant::Stiffness));
+        let is_needless =
+            |told: &Step| !told.added.is_empty() && told.added.iter().all(is_constant) && told.error >= corrected;
+        let is_needless = diagnosis.steps.last().is_some_and(is_needless);
         let of_model = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
         let Some((level, fit)) = of_model.filter(|_| is_needless && !self.control.is_late()) else { return Ok(()) };
         let start = self.carried(fit, *level, self.levels.len() - 1)?;
         let fit = self.corrected_whole(&start)?;
-        *diagnosis = before;
-        self.conclude_told(&self.told(&fit)?, misfit(&fit), std::slice::from_ref(&fit), diagnosis)
+        let mut of_model = before;
+        self.conclude_told(&self.told(&fit)?, misfit(&fit), std::slice::from_ref(&fit), &mut of_model)?;
+        if of_model.verdict != Verdict::Unexplained {
+            *diagnosis = of_model;
+        }
+        Ok(())
     }
 
     fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
