@@ -66,6 +66,11 @@ impl Effect {
         self.constant() == Some(constant)
     }
 
+    /// Whether it is a point mass or a spring: it adds to what corrections of the model multiply.
+    pub fn is_mass_or_spring(self) -> bool {
+        matches!(self.constant(), Some(Constant::Mass | Constant::Stiffness))
+    }
+
     /// Powers of amplitude and frequency of its equivalent coefficient at the parameters `p`, if they are constant.
     pub fn exponents(self, p: &[f64]) -> Option<Exponents> {
         (self.description().exponents)(p)

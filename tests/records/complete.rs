@@ -103,10 +103,11 @@ const BEAM_BLOW: Loading = Loading::Impulse { peak_n: 40.0, width_s: 0.003, at_s
 fn the_driven_place_of_a_beam_is_predicted_as_well_as_others() {
     let structure = cantilever(8);
     let truth = vec![whole(Effect::StiffnessProportional, 4e-5)];
-    for loading in [BEAM_NOISE, BEAM_BLOW] {
+    // Noise begins with a jump, which the filter against aliasing spreads over the first samples; a blow makes modes ring that are not
+    // followed.
+    for (loading, bound) in [(BEAM_NOISE, 9e-3), (BEAM_BLOW, 1.3e-2)] {
         let errors = errors(&Test { truth: &truth, ..beam(&structure, loading) });
-        // Noise begins with a jump, which the filter against aliasing spreads over the first samples.
-        assert!(errors.iter().all(|e| *e < 9e-3), "{loading:?}: {errors:.5?}");
+        assert!(errors.iter().all(|e| *e < bound), "{loading:?}: {errors:.5?}");
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) mod work;
 pub use window_rows::{WindowError, WindowRows};
 
 use crate::control::Control;
-use crate::effects::{Effect, Source};
+use crate::effects::Source;
 use crate::measurement::TransientRun;
 use crate::response::linear_matrices::LinearMatrices;
 use crate::structure::{Structure, StructureKind, SystemMatrices, modes::modes};
@@ -77,7 +77,7 @@ fn rows(
     let work = |works: &mut Works<'_>, source: &Source| over(&works.power(source));
     let units: Vec<Vec<f64>> = columns.iter().map(|s| work(&mut works, &s.with_coefficient(1.0))).collect();
     // Mass and stiffness that are known are in the matrices.
-    let stored = |source: &Source| matches!(source.effect, Effect::Mass | Effect::Stiffness);
+    let stored = |source: &Source| source.effect.is_mass_or_spring();
     let zeros = vec![0.0; ends.len()];
     let taken: Vec<Vec<f64>> =
         known.iter().map(|s| if stored(s) { zeros.clone() } else { work(&mut works, s) }).collect();

@@ -10,7 +10,6 @@ use super::telling::{added, corrections, corrections_of_parts, suggestions, word
 use super::told::added_as_told;
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::updating::correction::Correction;
-use crate::effects::Constant;
 use crate::structure::Part;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
@@ -35,24 +34,26 @@ impl Search<'_> {
     pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let before = diagnosis.clone();
         self.conclude_found(by_size, diagnosis)?;
-        let of_model = |s: &&Step| s.added.is_empty();
-        let corrected = diagnosis.steps.iter().filter(of_model).map(|s| s.error).fold(f64::INFINITY, f64::min);
-        let is_constant = |a: &Added| matches!(a.source.effect.constant(), Some(Constant::Mass | Constant::Stiffness));
-        let is_needless =
-            |told: &Step| !told.added.is_empty() && told.added.iter().all(is_constant) && told.error >= corrected;
-        let is_needless = diagnosis.steps.last().is_some_and(is_needless);
-        let of_model = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
-        let Some((level, fit)) = of_model.filter(|_| is_needless && !self.control.is_late()) else { return Ok(()) };
-        let start = self.carried(fit, *level, self.levels.len() - 1)?;
-        let fit = self.corrected_whole(&start)?;
-        let mut of_model = before;
-        self.conclude_told(&self.told(&fit)?, misfit(&fit), std::slice::from_ref(&fit), &mut of_model)?;
-        if of_model.verdict != Verdict::Unexplained {
-            *diagnosis = of_model;
+        let bare = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
+        let Some((level, bare)) = bare.filter(|_| is_needless(&diagnosis.steps) && !self.control.is_late()) else {
+            return Ok(());
+        };
+        let start = self.carried(bare, *level, self.levels.len() - 1)?;
+        let corrected = self.corrected_whole(&start)?;
+        let mut detuned = before;
+        self.conclude_told(
+            &self.told(&corrected)?,
+            misfit(&corrected),
+            std::slice::from_ref(&corrected),
+            &mut detuned,
+        )?;
+        if detuned.verdict != Verdict::Unexplained {
+            *diagnosis = detuned;
         }
         Ok(())
     }
 
+    /// The same, whatever corrections alone leave.
     fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
         let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         let Some(best) = last.first() else {
@@ -296,10 +297,35 @@ fn widen(diagnosis: &mut Diagnosis) {
     diagnosis.suggestions.iter_mut().for_each(|s| wider(&mut s.added, last));
 }
 
+/// Whether the last step tells masses and springs alone, and leaves no less than an earlier one without effects.
+fn is_needless(steps: &[Step]) -> bool {
+    let without = steps.iter().filter(|step| step.added.is_empty());
+    let corrected = without.map(|step| step.error).fold(f64::INFINITY, f64::min);
+    steps.last().is_some_and(|told| {
+        let alone = told.added.iter().all(|added| added.source.effect.is_mass_or_spring());
+        !told.added.is_empty() && alone && told.error >= corrected
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::effects::{Effect, Place, Source};
+
+    /// A mass that leaves as much as corrections do is needless; a dashpot is not, nor a mass that leaves less.
+    #[test]
+    fn masses_that_leave_no_less_than_corrections_are_needless() {
+        let step = |effect: Option<Effect>, error: f64| {
+            let source = |effect| Source::known(effect, Place::Dofs(vec![0]), &[1.0]);
+            let added = effect.map(|effect| Added { source: source(effect), deviations: vec![0.1] });
+            Step { added: added.into_iter().collect(), error, misfit: 1.0 }
+        };
+        let told =
+            |effect: Effect, error: f64| is_needless(&[step(None, 0.6), step(None, 0.013), step(Some(effect), error)]);
+        assert!(told(Effect::Mass, 0.0145) && told(Effect::Stiffness, 0.0145));
+        assert!(!told(Effect::Mass, 0.009) && !told(Effect::Viscous, 0.0145));
+        assert!(!is_needless(&[step(None, 0.6)]));
+    }
 
     #[test]
     fn an_effect_smaller_than_its_deviation_is_unknown() {

@@ -17,7 +17,7 @@ use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
-use crate::effects::{Constant, Source};
+use crate::effects::Source;
 use crate::measurement::TransientRun;
 
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
@@ -196,10 +196,7 @@ impl Search<'_> {
         if gain < GAIN && !great {
             return Ok(false);
         }
-        let constant = new
-            .effects
-            .last()
-            .is_some_and(|e| matches!(e.effect.constant(), Some(Constant::Mass | Constant::Stiffness)));
+        let constant = new.effects.last().is_some_and(|e| e.effect.is_mass_or_spring());
         // Both leave no more than noise: what is known of the corrections decides, where they tell much. A mass or spring would be one
         // of them.
         if misfit(old) < AGREES {

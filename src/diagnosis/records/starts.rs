@@ -53,7 +53,7 @@ impl Search<'_> {
         regression: Option<&Regression<'_>>,
     ) -> Vec<Source> {
         // One mode alone shows no mass or spring beside its own stiffness.
-        let seen = |s: &Source| self.records.kept > 1 || !matches!(s.effect, Effect::Mass | Effect::Stiffness);
+        let seen = |s: &Source| self.records.kept > 1 || !s.effect.is_mass_or_spring();
         let open = |s: &Source| seen(s) && !base.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let all = self.all_places();
         let located = self.places(best);

@@ -1,6 +1,5 @@
 //! The search with updating parameters free beside effects: corrections alone, one change in place of many corrections, laws.
 
-use super::single_change::is_like_a_correction;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
@@ -158,7 +157,7 @@ fn rival<'a>(
 ) -> Result<((ReferenceModel<'a>, f64), bool), DiagnosisError> {
     let best = &weighed.fits[0];
     let scale = scale_of(&weighed.fits, weighed.reference.count());
-    let doubtful = best.effects.iter().any(|e| is_like_a_correction(e.effect)) || scale > DOUBTFUL;
+    let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
     let near = bare.misfit() < RIVALLED * scale || doubtful;
     if near {
         (likely, least) = alone((likely, least), bare, weighed)?;
@@ -217,7 +216,7 @@ fn evidence_needed(fit: &FittedModel, by_modes: bool) -> f64 {
 
 /// Whether a fit is one spring or mass, which corrections can stand for.
 fn is_single_change(fit: &FittedModel) -> bool {
-    matches!(fit.effects.as_slice(), [only] if is_like_a_correction(only.effect))
+    matches!(fit.effects.as_slice(), [only] if only.effect.is_mass_or_spring())
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.

@@ -101,7 +101,7 @@ impl<'a> ReferenceModel<'a> {
             let unit = |place: Place| Source { effect, place, state: State::Known, parameters: vec![1.0] };
             let at = |place: &&Place| match (effect.kind(), place) {
                 // Corrections of modes do not stand for errors of one part: a spring or mass may be one.
-                (Kind::Relative(_), Place::Dofs(_)) => !(by_modes && is_like_a_correction(effect)),
+                (Kind::Relative(_), Place::Dofs(_)) => !(by_modes && effect.is_mass_or_spring()),
                 (Kind::Channel(law), Place::Channel(name)) => {
                     read(name) && (responses.contains(name) || law.neutral() != 0.0)
                 }
@@ -139,11 +139,6 @@ impl<'a> ReferenceModel<'a> {
         }
         rows
     }
-}
-
-/// Whether an effect adds to what corrections multiply.
-pub(super) fn is_like_a_correction(effect: Effect) -> bool {
-    matches!(effect, Effect::Stiffness | Effect::Mass)
 }
 
 /// The effect with what a fit gives beyond none, of a channel that multiplies in the logarithm; none where that is no more than

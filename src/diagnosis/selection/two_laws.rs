@@ -1,7 +1,6 @@
 //! Two laws at the place of one that leaves more than noise, in its stead: each step of a search adds one law, and of two that act
 //! together neither need be the best alone. What one law of a joint misses passes for stiffness that scatters from run to run.
 
-use super::single_change::is_like_a_correction;
 use super::weighing::{Weighed, weighed};
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::two_laws::TwoLaws;
@@ -36,7 +35,7 @@ impl<'a> ReferenceModel<'a> {
         }
         let Some(two) = weighed(self.followed(unfitted)?)? else { return Ok(None) };
         let effects = &two.fits[0].effects;
-        let both = effects.len() > 1 && !effects.iter().any(|e| is_like_a_correction(e.effect));
+        let both = effects.len() > 1 && !effects.iter().any(|e| e.effect.is_mass_or_spring());
         let gains = gains(&two, best);
         Ok((both && 0.5 * (gains[0] + gains[1]) > EVIDENCE).then(|| beside(two, best, gains[0])))
     }
@@ -61,7 +60,7 @@ impl<'a> ReferenceModel<'a> {
         let alone = data.all_fits(data.simple_fits()).into_iter();
         let alone = alone.map(|fit| bayesian_information(fit.misfit, fit.source.parameters.len(), count));
         let alone = alone.fold(f64::INFINITY, f64::min);
-        let pairs = data.two_laws(|source| self.data.allows(source) && !is_like_a_correction(source.effect));
+        let pairs = data.two_laws(|source| self.data.allows(source) && !source.effect.is_mass_or_spring());
         let scale = pairs.first().map_or(1.0, |best| best.misfit / count.max(1) as f64).max(1.0);
         let enough = |score: &f64| alone - score > evidence * scale;
         let set = |pair: TwoLaws| UnfittedSet {

@@ -18,7 +18,7 @@ pub(crate) fn part_of(source: &Source) -> Option<Part> {
 
 /// Whether a spring or mass takes away from the structure.
 pub(crate) fn takes_away(source: &Source) -> bool {
-    matches!(source.effect, Effect::Mass | Effect::Stiffness) && source.parameters[0] < 0.0
+    source.effect.is_mass_or_spring() && source.parameters[0] < 0.0
 }
 
 /// Whether a spring or mass is less than `share` of `part`, which it would change.

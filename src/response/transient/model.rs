@@ -14,7 +14,6 @@ use crate::effects::Leg;
 use crate::measurement::{Channel, Quantity};
 use dashpot_numerics::{dot, scalar_products};
 use faer::Mat;
-use std::f64::consts::PI;
 
 /// A model that predicts records.
 pub struct TransientModel {
@@ -46,7 +45,7 @@ impl TransientModel {
         let places: Vec<Leg> = legs.iter().map(|(_, leg, ..)| *leg).chain(setup.drives.iter().map(driven)).collect();
         let linear = setup.sources.iter().filter(|s| is_linear(s.effect)).flat_map(|s| s.place.legs());
         let patterns = pattern_matrix(n, &places.iter().copied().chain(linear).collect::<Vec<_>>());
-        let reduction = Reduction::new(matrices, setup.modes, setup.kept, PI / setup.step[0], &patterns)?;
+        let reduction = Reduction::new(matrices, setup.modes, setup.kept, &patterns)?;
         let size = reduction.omega.len();
         let along = |leg: Leg| -> Vec<f64> { (0..size).map(|r| leg.relative(|i| reduction.basis[(i, r)])).collect() };
         let inputs: Vec<Vec<f64>> = places.iter().map(|leg| along(*leg)).collect();

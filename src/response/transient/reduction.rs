@@ -4,8 +4,7 @@
 //! x = sum_r phi_r p_r + sum_s psi_s p_s,     psi = (K + sigma M)^-1 b - sum_r phi_r (phi_r^T b) / (omega_r^2 + sigma)
 //! ```
 //!
-//! Of the modes above those that are kept, the next few within the sampled band move by themselves too, from rest under the forces: near
-//! the end of the band one static coordinate for all of them misses the driven place by per cents. The residual attachment modes `psi` carry what the modes above the band do at the place of a force (MacNeal 1971, Rubin
+//! The residual attachment modes `psi` carry what the modes above the band do at the place of a force (MacNeal 1971, Rubin
 //! 1975); they are orthogonal to the kept modes and are made so among themselves, so that mass is the identity and
 //! stiffness diagonal. Their own motion lies above the band and is given a little damping, so that it does not ring on.
 
@@ -21,28 +20,23 @@ pub(super) const RESIDUAL_DAMPING: f64 = 0.02;
 /// Share of the flexibility at a place below which nothing is left beyond the kept modes.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Most modes above the kept ones that move by themselves.
-const MOST_ABOVE: usize = 4;
-
 /// Basis and natural frequencies.
 #[derive(Debug, Clone)]
 pub(super) struct Reduction {
-    /// Mass-normalised shapes, n x coordinates: kept modes, those above them, then residual ones.
+    /// Mass-normalised shapes, n x coordinates: kept modes, then residual ones.
     pub basis: Mat<f64>,
     /// Natural circular frequency of each coordinate, rad/s.
     pub omega: Vec<f64>,
-    /// Number of kept modes, whose initial state is free.
+    /// Number of kept modes.
     pub kept: usize,
 }
 
 impl Reduction {
-    /// Keeps the lowest `kept` of `modes`, the next ones up to the circular frequency `end` (rad/s) and the residual flexibility under
-    /// `patterns` (n x count).
+    /// Keeps the lowest `kept` of `modes` and the residual flexibility under `patterns` (n x count).
     pub(super) fn new(
         matrices: &SystemMatrices,
         modes: &Modes,
         kept: usize,
-        end: f64,
         patterns: &Mat<f64>,
     ) -> Result<Self, TransientError> {
         let kept = kept.min(modes.len());
@@ -50,10 +44,8 @@ impl Reduction {
             let basis = modes.shapes.subcols(0, kept).to_owned();
             return Ok(Self { basis, omega: modes.omega[..kept].to_vec(), kept });
         }
-        let above = modes.omega[kept..].iter().take(MOST_ABOVE).take_while(|w| **w <= end).count();
-        let followed = kept + above;
-        let mut omega = modes.omega[..followed].to_vec();
-        let phi = modes.shapes.subcols(0, followed);
+        let mut omega = modes.omega[..kept].to_vec();
+        let phi = modes.shapes.subcols(0, kept);
         let lowest = omega.iter().copied().find(|w| *w > 0.0).unwrap_or(1.0);
         let sigma = f64::powi(0.1 * lowest, 2);
         let n = matrices.mass.nrows();
@@ -61,7 +53,7 @@ impl Reduction {
         let factor = Cholesky::new(shifted.as_ref()).ok_or(TransientError::NotPositive)?;
         let flexible = factor.solve(patterns.as_ref());
         let shares = transposed_product(phi, patterns.as_ref());
-        let scaled = Mat::from_fn(followed, patterns.ncols(), |r, k| shares[(r, k)] / (omega[r].powi(2) + sigma));
+        let scaled = Mat::from_fn(kept, patterns.ncols(), |r, k| shares[(r, k)] / (omega[r].powi(2) + sigma));
         let residual = &flexible - product(phi, scaled.as_ref());
         let along = |a: &Mat<f64>, k: usize| (0..n).map(|i| patterns[(i, k)] * a[(i, k)]).sum::<f64>();
         let worth: Vec<usize> =
@@ -69,11 +61,7 @@ impl Reduction {
         let residual = Mat::from_fn(n, worth.len(), |i, k| residual[(i, worth[k])]);
         let (shapes, own) = orthogonal(matrices, &residual)?;
         let basis =
-            Mat::from_fn(
-                n,
-                followed + own.len(),
-                |i, r| if r < followed { phi[(i, r)] } else { shapes[(i, r - followed)] },
-            );
+            Mat::from_fn(n, kept + own.len(), |i, r| if r < kept { phi[(i, r)] } else { shapes[(i, r - kept)] });
         omega.extend(own);
         Ok(Self { basis, omega, kept })
     }
