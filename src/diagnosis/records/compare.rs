@@ -124,7 +124,8 @@ pub(crate) fn started_from(
 }
 
 /// `start` with the initial states that the first periods of the records show, before a model that is off has lost the phase; those
-/// of a nonlinear model begin with what its linear part shows, for a start at rest may hold it fast.
+/// of a nonlinear model begin with what its linear part shows, for friction may hold a start at rest fast, or as they are, for a
+/// linear part is bent to what a law does under a blow: whichever ends nearer.
 pub(super) fn first_states(
     records: &Records,
     start: FittedRecords,
@@ -146,10 +147,14 @@ pub(super) fn first_states(
         known: kept.iter().map(|&k| fitted.known[k]).collect(),
         ..fitted.clone()
     };
+    let as_it_is = fit(records, &fitted);
     if let Ok(bare) = fit(&plain, &bare) {
         fitted.initial = bare.initial;
     }
-    fit(records, &fitted)
+    match (as_it_is, fit(records, &fitted)) {
+        (Ok(one), Ok(other)) => Ok(if one.chi_square < other.chi_square { one } else { other }),
+        (one, other) => one.or(other),
+    }
 }
 
 /// Share of every record that holds the first periods: two of its dominant motion, one and a half of the lowest mode.

@@ -6,11 +6,12 @@ use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
-use crate::math::statistics::median;
+use crate::math::statistics::{median, root_mean_square};
 use crate::measurement::{Channel, Kind, TransientRun};
 use crate::response::transient::{SampledForces, TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
 use crate::structure::{Part, Structure, StructureError};
+use dashpot_numerics::RealTransform;
 use std::f64::consts::TAU;
 
 /// Most modes that are followed one by one; the rest by residual flexibility.
@@ -87,6 +88,8 @@ pub struct RecordData {
     pub substeps: usize,
     /// Frequency of the highest peak, Hz.
     pub dominant_hz: f64,
+    /// Frequency that halves the power of the motion above the noise, no less than that of the highest peak, Hz.
+    pub median_hz: f64,
     /// Highest frequency at which the motion stands out, Hz.
     pub highest_hz: f64,
 }
@@ -258,7 +261,7 @@ impl RecordData {
     /// Steps of the model from one sample to the next, `step` s later, where a law is nonlinear; each covers no more than `most` rad
     /// of the highest motion.
     pub(super) fn steps_between(&self, step: f64, most: f64) -> usize {
-        let phase = TAU * self.highest_hz.min(3.0 * self.dominant_hz) * step;
+        let phase = TAU * self.highest_hz.min(3.0 * self.median_hz) * step;
         ((phase / most).ceil() as usize).clamp(1, 8)
     }
 
@@ -310,9 +313,11 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         scatter: 0.0,
         substeps: 1,
         dominant_hz: 0.0,
+        median_hz: 0.0,
         highest_hz: 0.0,
     };
     record.dominant_hz = dominant_hz(&record);
+    record.median_hz = median_hz(&record).max(record.dominant_hz);
     record.highest_hz = highest_hz(&record);
     record.substeps = record.steps_between(step, STEP_PHASE);
     Ok(record)
@@ -334,6 +339,28 @@ fn dominant_hz(record: &RecordData) -> f64 {
     let strongest = |c: usize| best(&record.samples[c]).map(|p| (p.amplitude / record.noise[c], p.frequency_hz));
     let all = (0..record.samples.len()).filter_map(strongest);
     all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(1.0 / (record.step * record.len() as f64), |p| p.1)
+}
+
+/// Frequency (Hz) that halves the power above the noise of the channel that stands out most: where a law feeds modes that are far from
+/// the highest peak, their lines are broad and low, and hold most of the motion all the same.
+fn median_hz(record: &RecordData) -> f64 {
+    let above = |c: usize| {
+        let power = root_mean_square(&record.samples[c]).powi(2);
+        (power / record.noise[c].powi(2), c)
+    };
+    let Some((_, c)) = (0..record.samples.len()).map(above).max_by(|a, b| a.0.total_cmp(&b.0)) else { return 0.0 };
+    let mut work = record.samples[c].clone();
+    let lines = RealTransform::new(work.len()).forward(&mut work);
+    let floor = record.len() as f64 * record.noise[c].powi(2);
+    let powers: Vec<f64> = lines.iter().skip(1).map(|line| (line.norm_sqr() - floor).max(0.0)).collect();
+    let half = 0.5 * powers.iter().sum::<f64>();
+    let mut sum = 0.0;
+    let reaches = |power: &f64| {
+        sum += power;
+        sum >= half
+    };
+    let number = 1 + powers.iter().position(reaches).unwrap_or(0);
+    number as f64 / (record.len() as f64 * record.step)
 }
 
 /// Highest frequency (Hz) at which a channel shows a peak well above the noise and not far below the highest.

@@ -10,6 +10,8 @@ use super::weights::local;
 
 /// Periods of the dominant motion in the shortest parts.
 const PERIODS: f64 = 8.0;
+/// Least length of a part, as a share of that many periods of the dominant motion.
+const LEAST_SHARE: f64 = 0.25;
 /// Ratio of the lengths of parts from one level to the next; of long records in which forces act all the time, which hold the phase.
 const GROWTH: f64 = 3.0;
 const GROWTH_DRIVEN: f64 = 9.0;
@@ -59,7 +61,11 @@ impl Records<'_> {
 
 /// At most `most` parts of a record, evenly spread over its motion; the first follows a blow to its end.
 fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
-    let length = ((periods / (record.dominant_hz * record.step)) as usize).max(FEWEST);
+    // Free motion that is mostly faster than its highest peak needs shorter parts: phase is lost by its own periods.
+    let is_free = record.forces.is_empty() || struck(record).is_some();
+    let fast_hz = if is_free { record.median_hz.min(record.dominant_hz / LEAST_SHARE) } else { record.dominant_hz };
+    let seconds = periods / fast_hz;
+    let length = ((seconds / record.step) as usize).max(FEWEST);
     let blow = struck(record).map_or(0, |end| (end * record.len() as f64) as usize);
     let first = (blow + length).min(record.len());
     let free = active(record, length).saturating_sub(first);
@@ -125,6 +131,7 @@ impl RecordData {
             scatter: self.scatter,
             substeps: self.steps_between(self.step * every as f64, phase),
             dominant_hz: self.dominant_hz,
+            median_hz: self.median_hz,
             highest_hz: self.highest_hz,
         }
     }

@@ -91,25 +91,60 @@ impl<'a> ScoreTest<'a> {
         Ok(test)
     }
 
+    /// The motion of the fit.
+    pub(super) fn motion(&self) -> &FitMotion {
+        &self.motion
+    }
+
     fn solved(&self, right: &[f64]) -> Vec<f64> {
         let scaled = Mat::from_fn(right.len(), 1, |i, _| right[i] * self.scaling[i]);
         let x = self.factored.solve(scaled.as_ref());
         self.scaling.iter().enumerate().map(|(i, s)| x[(i, 0)] * s).collect()
     }
 
+    /// The same beside a fit without the force of one of its laws along the motion that it has with it, to first order; to be made of a
+    /// problem in which no parameters of laws are free.
+    pub(super) fn without(mut self, law: &Source) -> Result<Self, RecordError> {
+        let leg = law.place.legs().first().copied().ok_or(RecordError::Singular)?;
+        let mut back = vec![0.0; self.step.len()];
+        for r in 0..self.thinned.len() {
+            let (forced, record) = (self.forced(leg, r)?, &self.records.list[r]);
+            let Thinned { derivatives, every } = &mut self.thinned[r];
+            let channels = forced.under(law, record, *every).ok_or(RecordError::Singular)?;
+            let mut by = vec![0.0; derivatives.count];
+            for (c, y) in channels.iter().enumerate() {
+                let sigma = record.sigma[c].iter().step_by(*every);
+                let w: Vec<f64> = y.iter().zip(sigma).map(|(y, s)| y / s).collect();
+                derivatives.left[c].iter_mut().zip(&w).for_each(|(left, w)| *left += w);
+                let times = *every as f64;
+                derivatives.channels[c].iter().for_each(|(k, column)| by[*k] += times * dot(&w, column));
+            }
+            derivatives.unknowns.iter().for_each(|(p, k, s)| back[*k] += s * by[*p]);
+        }
+        let more = self.solved(&back);
+        self.step.iter_mut().zip(more).for_each(|(step, more)| *step += more);
+        Ok(self)
+    }
+
     /// The best shape of each law at a place; none where the place does not move.
     pub(super) fn at(&self, place: &Place, laws: &[Effect]) -> Vec<Scored> {
+        self.shapes_at(place, laws).into_iter().filter_map(|shapes| shapes.into_iter().next()).collect()
+    }
+
+    /// The shapes of each law at a place, best first; none where the place does not move.
+    pub(super) fn shapes_at(&self, place: &Place, laws: &[Effect]) -> Vec<Vec<Scored>> {
         let Some(leg) = place.legs().first().copied() else { return Vec::new() };
         let made: Result<Vec<Forced>, RecordError> =
             (0..self.thinned.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
         let (Ok(forced), Some(range)) = (made, self.motion.range(leg)) else { return Vec::new() };
-        let best = |effect: &Effect| {
+        let all = |effect: &Effect| {
             let shapes = effect.shapes(&range).into_iter();
-            shapes
-                .filter_map(|shape| self.scored(*effect, place, shape, &forced))
-                .max_by(|a, b| a.gain.total_cmp(&b.gain))
+            let mut scored: Vec<Scored> =
+                shapes.filter_map(|shape| self.scored(*effect, place, shape, &forced)).collect();
+            scored.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+            scored
         };
-        laws.iter().filter_map(best).collect()
+        laws.iter().map(all).collect()
     }
 
     /// The linear model of record `r` under forces along a leg.
@@ -124,6 +159,14 @@ impl<'a> ScoreTest<'a> {
             .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;
         let motion = self.motion.relative(leg, r).ok_or(RecordError::Singular)?;
         Ok(Forced { model, motion, drives: drives.len() })
+    }
+
+    /// What a source of any size takes away.
+    pub(super) fn gain(&self, source: &Source) -> Option<f64> {
+        let leg = source.place.legs().first().copied()?;
+        let forced: Vec<Forced> =
+            (0..self.thinned.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>().ok()?;
+        self.scored(source.effect, &source.place, source.parameters.clone(), &forced).map(|scored| scored.gain)
     }
 
     /// A shape with the scale that fits best.

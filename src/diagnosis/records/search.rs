@@ -21,6 +21,8 @@ const BEGINNING: [usize; 2] = [1, 3];
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
 const CORRECTING: [usize; 2] = [3, 4];
+/// Fits that are begun beside those that are there, of which as many are followed.
+const FOLLOWED_BESIDE: usize = 3;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
 /// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
@@ -35,12 +37,12 @@ const NEAR: f64 = 2.0;
 const FURTHER: [usize; 2] = [24, 8];
 /// Starts of which a fit is begun.
 const BEGUN: usize = 28;
-/// Fits that are carried on to longer parts, and the steps there.
+/// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
 const RIVALS: usize = 4;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
 const BEHIND: f64 = 80.0;
 const LEAST_RIVALS: usize = 2;
-const CARRYING: [usize; 2] = [4, 4];
+const CARRYING: [[usize; 2]; 2] = [[2, 4], [2, 4]];
 /// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
 /// first steps, and on longer parts.
 const HOPELESS: [f64; 2] = [12.0, 3.0];
@@ -280,12 +282,17 @@ impl Search<'_> {
             let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
             few.truncate(near.max(LEAST_RIVALS));
         }
+        let carry = |k: usize| self.carried(&few[k], level, level + 1).ok();
+        let starts: Vec<FittedRecords> = self.control.map(few.len(), carry).into_iter().flatten().collect();
         let alone = self.control.alone();
-        let longer = |k: usize| {
-            let start = self.carried(&few[k], level, level + 1).ok()?;
-            self.fit_by(level + 1, &start, (1.0, CARRYING), &alone).ok()
+        let longer = |list: &[FittedRecords], rounds| -> Vec<FittedRecords> {
+            let fit = |k: usize| self.fit_by(level + 1, &list[k], (1.0, rounds), &alone).ok();
+            self.control.map(list.len(), fit).into_iter().flatten().collect()
         };
-        let mut found = self.control.map(few.len(), longer).into_iter().flatten().collect();
+        // What leaves hopelessly much after the first rounds is not followed further.
+        let mut found = longer(&starts, CARRYING[0]);
+        keep(&mut found, RIVALS, HOPELESS[0]);
+        let mut found = longer(&found, CARRYING[1]);
         self.control.check()?;
         keep(&mut found, RIVALS, HOPELESS[1]);
         self.beside_neighbours(level + 1, self.sorted(level + 1, found))
@@ -316,8 +323,15 @@ impl Search<'_> {
         starts: &[FittedRecords],
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let alone = self.control.alone();
-        let fit = |k: usize| self.fit_by(level, &starts[k], (1.0, FOLLOWING), &alone).ok();
-        add_begun(&mut found, self.control.map(starts.len(), fit));
+        let fits = |list: &[FittedRecords], rounds| {
+            self.control.map(list.len(), |k| self.fit_by(level, &list[k], (1.0, rounds), &alone).ok())
+        };
+        let mut begun = Vec::new();
+        add_begun(&mut begun, fits(starts, BEGINNING));
+        begun.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+        let others = begun.split_off(begun.len().min(FOLLOWED_BESIDE));
+        add_begun(&mut found, fits(&begun, FOLLOWING));
+        add_begun(&mut found, others.into_iter().map(Some).collect());
         self.control.check()?;
         if !self.control.is_late() {
             self.given_up.add_all(&found, |f, least| f.chi_square > HOPELESS[0] * least.max(NOISE * f.count as f64));

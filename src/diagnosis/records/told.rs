@@ -11,7 +11,6 @@ use super::evidence::{information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, beyond_priors, modes};
 use super::search::Search;
-use crate::control::Control;
 use crate::diagnosis::result::Added;
 use crate::effects::Source;
 
@@ -59,7 +58,6 @@ impl Search<'_> {
                 variants.push(([false, true, true], 0.0));
             }
         }
-        let alone = self.control.alone();
         let variant = |k: usize| -> Result<Vec<(FittedRecords, usize)>, RecordError> {
             let (what, stiffness) = variants[k];
             let (mask, by_mode) = (mask(what), what[1]);
@@ -72,35 +70,34 @@ impl Search<'_> {
             start.mass = if what[2] { fit.mass } else { 0.0 };
             start.parts.fill(0.0);
             start.shifts.fill(0.0);
-            let mut next = self.fitted_anew(&start, mask.clone(), &alone)?;
+            let mut next = self.fitted_anew(&start, mask.clone())?;
             let mut found = vec![(next.clone(), number(&mask))];
             if by_mode {
                 let free = self.kept_modes(&mut next, mask, sources);
-                found.push((self.fitted_anew(&next, free.clone(), &alone)?, number(&free)));
+                found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
             }
             found.iter_mut().for_each(|(told, _)| keep_deviations(told, fit));
             Ok(found)
         };
         let mut best: Option<(FittedRecords, usize)> = None;
-        for found in self.control.map(variants.len(), variant) {
-            for (next, count) in found? {
+        for k in 0..variants.len() {
+            for (next, count) in variant(k)? {
                 if best.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
                     best = Some((next, count));
                 }
+            }
+            if best.as_ref().is_some_and(|(told, _)| is_plainest(told, fit)) {
+                break;
             }
         }
         Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }
 
-    fn fitted_anew(
-        &self,
-        start: &FittedRecords,
-        corrections: Vec<bool>,
-        control: &Control,
-    ) -> Result<FittedRecords, RecordError> {
+    fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         // What an effect is worth is told by the fit in which all else was free, or it would stand for what is held here.
         let free = Free { corrections, shifts: false, shapes: true, effects: false };
-        match (FitProblem { records: self.records, free, share: 1.0, control }).begin(start, ROUNDS) {
+        let problem = FitProblem { records: self.records, free, share: 1.0, control: self.control };
+        match problem.begin(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
@@ -175,6 +172,12 @@ fn is_plainer((new, count): (&FittedRecords, usize), (old, other): (&FittedRecor
     let unit = scale(if misfit(new) < misfit(old) { new } else { old });
     let worth = |fit: &FittedRecords, n: usize| fit.chi_square / unit + fit.prior + n as f64 * information(fit, unit);
     worth(new, count) < worth(old, other)
+}
+
+/// Whether no fit with a correction more can have more evidence than `told`: even the one with `all` of them free leaves hardly less.
+fn is_plainest(told: &FittedRecords, all: &FittedRecords) -> bool {
+    let unit = scale(all);
+    told.chi_square / unit + told.prior <= all.chi_square / unit + information(all, unit)
 }
 
 /// The effects of a fit with their deviations, those of `told` where they are its own.

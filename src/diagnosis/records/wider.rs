@@ -6,15 +6,16 @@ use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
-use super::problem::{FitProblem, Free};
 use super::rivals::is_same_set;
+use super::score::{ScoreTest, Scored};
 use super::search::Search;
 use crate::effects::{Effect, Leg, Source};
 use crate::response::transient::force_along;
 use dashpot_numerics::dot;
 
-/// Shapes of a wider law from which fits begin.
+/// Shapes of a wider law from which fits begin, and of all wider laws.
 const BEGUN: usize = 2;
+const BEGUN_OF_ALL: usize = 8;
 /// Places of rivals at which the law of the best is tried, and the squared residual over that of the best, or over the noise, up to which
 /// they are rivals.
 const ELSEWHERE: usize = 2;
@@ -68,48 +69,43 @@ impl Search<'_> {
         Ok(starts)
     }
 
-    /// `fit` with its last law replaced by others, each in the [`BEGUN`] shapes that leave least, doing the same force along the
-    /// motion of the fit.
+    /// `fit` with its last law replaced by others, doing the same force along its motion: the [`BEGUN`] shapes of each, and
+    /// [`BEGUN_OF_ALL`] of all, that would leave least in its place to first order.
     fn begun_as(&self, level: usize, fit: &FittedRecords, laws: &[Effect]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((law, leg)) = fit.effects.last().and_then(|e| Some((e, e.place.legs().first().copied()?))) else {
             return Ok(Vec::new());
         };
-        let records = &self.levels[level];
-        let motion = FitMotion::new(records, fit, self.control)?;
-        let Some(range) = motion.range(leg) else { return Ok(Vec::new()) };
         let alone = self.control.alone();
-        let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: &alone };
-        let mut starts = Vec::new();
-        for &effect in laws {
-            let sources: Vec<Source> = effect
-                .shapes(&range)
-                .into_iter()
-                .filter_map(|shape| self.alike(law, effect, shape, (leg, &motion, level)))
-                .collect();
-            let of = |k: usize| {
-                let mut start = fit.clone();
-                start.effects.pop();
-                start.effects.push(sources[k].clone());
-                let left = problem.left(&start).ok()?.chi_square;
-                Some((left, start))
-            };
-            let mut all: Vec<(f64, FittedRecords)> =
-                self.control.map(sources.len(), of).into_iter().flatten().collect();
-            all.sort_by(|a, b| a.0.total_cmp(&b.0));
-            starts.extend(all.into_iter().take(BEGUN).map(|(_, start)| start));
-        }
-        Ok(starts)
+        let mut problem = self.problem(level, 1.0, &alone);
+        problem.free.effects = false;
+        let test = match ScoreTest::new(&problem, fit).and_then(|test| test.without(law)) {
+            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
+            other => other?,
+        };
+        let shapes = self.control.map(laws.len(), |k| test.shapes_at(&law.place, &laws[k..=k])).into_iter().flatten();
+        let own = test.gain(law).unwrap_or(0.0);
+        let most = (NEAR - 1.0) * fit.chi_square.max(fit.count as f64);
+        let near = |s: &Scored| own - s.gain < most;
+        let mut few: Vec<Scored> = shapes.flat_map(|list| list.into_iter().filter(near).take(BEGUN)).collect();
+        few.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        few.truncate(BEGUN_OF_ALL);
+        let in_place = |scored: Scored| {
+            let source = self.alike(law, scored.source, (leg, test.motion(), level))?;
+            let mut start = fit.clone();
+            start.effects.pop();
+            start.effects.push(source);
+            Some(start)
+        };
+        Ok(few.into_iter().filter_map(in_place).collect())
     }
 
-    /// A shape of a law scaled so that its force along the motion is that of `law`.
+    /// A source scaled so that its force along the motion is that of `law`.
     fn alike(
         &self,
         law: &Source,
-        effect: Effect,
-        shape: Vec<f64>,
+        mut source: Source,
         (leg, motion, level): (Leg, &FitMotion, usize),
     ) -> Option<Source> {
-        let mut source = Source { effect, parameters: shape, ..law.clone() };
         let (mut product, mut square) = (0.0, 0.0);
         for (r, record) in self.levels[level].list.iter().enumerate() {
             let [d, v, a] = motion.relative(leg, r)?;
@@ -119,8 +115,8 @@ impl Search<'_> {
             square += dot(&own, &own);
         }
         let factor = product / square;
-        effect.scaled().iter().for_each(|&k| source.parameters[k] *= factor);
-        let allowed = source.parameters.iter().zip(effect.parameters()).all(|(v, p)| p.allows(*v));
+        source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= factor);
+        let allowed = source.parameters.iter().zip(source.effect.parameters()).all(|(v, p)| p.allows(*v));
         (factor.is_finite() && factor != 0.0 && allowed).then_some(source)
     }
 }
