@@ -182,7 +182,9 @@ fn unit_of_functions(cells: &[String]) -> Option<String> {
         ["amplitude unit", "y-axis unit", "y axis unit", "y unit", "ordinate unit", "frf unit", "amplitudeneinheit"];
     let rest = rest.trim().split(['\t', ';', ',']).next()?.split("  ").next()?.trim();
     let unit = stripped(rest);
-    (words.contains(&label(front).as_str()) && unit.contains('/') && is_unit(unit)).then(|| unit.to_owned())
+    let front = label(front);
+    ((front == "unit" || words.contains(&front.as_str())) && unit.contains('/') && is_unit(unit))
+        .then(|| unit.to_owned())
 }
 
 /// Rows of names and units by their place right above the numbers.
