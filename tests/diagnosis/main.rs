@@ -17,7 +17,6 @@ mod random;
 mod records;
 mod robust;
 mod samples;
-mod several;
 #[path = "../../examples/hidden_effects/sizing.rs"]
 mod sizing;
 #[path = "../../examples/hidden_effects/specimen.rs"]

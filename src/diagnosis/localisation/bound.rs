@@ -17,10 +17,4 @@ impl ReferenceModel<'_> {
         let least = |placings: Vec<Placing>| placings.first().map_or(f64::INFINITY, |p| p.chi_square);
         Ok(Reach { single: least(view.screen.singles()), pair: least(view.screen.pairs(1)) })
     }
-
-    /// How little free forces at three places leave.
-    pub(crate) fn reach_of_three(&self) -> Result<f64, DiagnosisError> {
-        let view = self.view(None)?;
-        Ok(view.screen.triples(1).first().map_or(f64::INFINITY, |p| p.chi_square))
-    }
 }

@@ -151,40 +151,28 @@ impl Cell {
         left - (self.products[second] - coupling.conj() / square * self.products[first]).norm_sqr() / rest
     }
 
-    /// What free forces at all of `spots` leave.
-    pub(super) fn left_by_all(&self, spots: &[usize]) -> f64 {
-        let seen = |v: &Vec<c64>| dot(v, &self.residual).norm_sqr();
-        self.total - self.basis(spots).iter().map(seen).sum::<f64>()
-    }
-
-    /// Forces of spots, fitted together, with their weights: each by what of its column the others do not span
-    /// (Frisch, Waugh 1933). A spot whose column those before it span has none.
+    /// Forces of one or two spots with their weights.
     pub(super) fn solve(&self, spots: &[usize]) -> Vec<FreeForce> {
         let none = FreeForce { value: c64::new(0.0, 0.0), weight: 0.0 };
-        let mut kept: Vec<usize> = Vec::with_capacity(spots.len());
-        for &s in spots {
-            if self.apart(s, &kept).is_some() {
-                kept.push(s);
+        let alone = |s: usize| {
+            if self.squares[s] > 0.0 {
+                FreeForce { value: self.products[s] / self.squares[s], weight: self.squares[s] }
+            } else {
+                none
             }
-        }
-        let force = |&s: &usize| {
-            let others: Vec<usize> = kept.iter().copied().filter(|&other| other != s).collect();
-            let apart = self.apart(s, &others).filter(|_| kept.contains(&s))?;
-            let weight = dot(&apart, &apart).re;
-            Some(FreeForce { value: dot(&apart, &self.residual) / weight, weight })
         };
-        spots.iter().map(|s| force(s).unwrap_or(none)).collect()
-    }
-
-    /// The part of the column of `s` that those of `others` do not span; `None` where there is none.
-    fn apart(&self, s: usize, others: &[usize]) -> Option<Vec<c64>> {
-        let mut column = self.columns[s].clone();
-        for b in self.basis(others) {
-            let share = dot(&b, &column);
-            column.iter_mut().zip(&b).for_each(|(v, b)| *v -= share * b);
+        let [i, j] = *spots else { return spots.iter().map(|&s| alone(s)).collect() };
+        let (gi, gj) = (self.squares[i], self.squares[j]);
+        let coupling = dot(&self.columns[i], &self.columns[j]);
+        let determinant = gi * gj - coupling.norm_sqr();
+        if determinant <= INDEPENDENCE * gi * gj {
+            return vec![alone(i), none];
         }
-        let size = dot(&column, &column).re;
-        (size > 0.0 && size > INDEPENDENCE * self.squares[s]).then_some(column)
+        let (bi, bj) = (self.products[i], self.products[j]);
+        vec![
+            FreeForce { value: (bi * gj - coupling * bj) / determinant, weight: determinant / gj },
+            FreeForce { value: (bj * gi - coupling.conj() * bi) / determinant, weight: determinant / gi },
+        ]
     }
 }
 

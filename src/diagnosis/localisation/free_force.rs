@@ -61,7 +61,7 @@ pub(crate) struct BesideWhole {
     pub updated: Vec<f64>,
 }
 
-/// What some places leave unexplained.
+/// What one place, or two, leave unexplained.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Placing {
     /// Indices into the spots.
@@ -364,8 +364,6 @@ fn sorted(mut placings: Vec<Placing>) -> Vec<Placing> {
     placings.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     placings
 }
-
-mod triples;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,5 @@
 //! Fits on the response, stepwise selection of effects, conclusions, the next test.
 
-mod at_once;
 mod beside_corrections;
 pub(crate) mod conclusion;
 pub(crate) mod estimator;
@@ -15,6 +14,7 @@ mod left_out;
 pub(crate) mod levenberg_marquardt;
 mod localised;
 pub(crate) mod next_test;
+mod pairs;
 pub(crate) mod reference_model;
 pub(crate) mod search;
 pub(crate) mod sentences;

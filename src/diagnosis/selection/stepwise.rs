@@ -77,8 +77,9 @@ pub(crate) fn explain(
         confirm(&reference, &mut exact)?;
         return Ok(Ok(Outcome { reference, found: exact }));
     }
-    // Beside a model far off its resonances, one force leaves a small part of what it is off by, which is far above the noise.
-    if reach.single > noise && several_at_once(&reference, &mut exact, (reach.pair, noise))? {
+    // Free forces at two places explain whatever two sensors see.
+    let telling = reference.data.runs.iter().all(|run| run.alive.len() > 2);
+    if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&reference, &mut exact)? {
         confirm(&reference, &mut exact)?;
         return Ok(Ok(Outcome { reference, found: exact }));
     }
@@ -89,31 +90,12 @@ pub(crate) fn explain(
     beside_updating(reference, before)
 }
 
-/// Whether two effects at once agree with the data, or three, where as many free forces leave no more than `noise` (those of a `pair`
-/// are known); then they are what was found.
-fn several_at_once(
-    reference: &ReferenceModel,
-    found: &mut Found,
-    (pair, noise): (f64, f64),
-) -> Result<bool, DiagnosisError> {
-    // Free forces at so many places explain whatever so many sensors see.
-    let seen_by_more_than = |places: usize| reference.data.runs.iter().all(|run| run.alive.len() > places);
-    if seen_by_more_than(2) && pair <= noise {
-        return agree(reference, found, reference.pairs()?);
-    }
-    if !seen_by_more_than(3) || reference.control.is_late() || reference.reach_of_three()? > noise {
-        return Ok(false);
-    }
-    agree(reference, found, reference.triples()?)
-}
-
-/// Whether the best of `fits` agrees with the data; then they are what was found.
-fn agree(reference: &ReferenceModel, found: &mut Found, fits: Vec<FittedModel>) -> Result<bool, DiagnosisError> {
-    let (fits, noise) = reference.polished(distinct(fits))?;
+/// Whether two effects at once agree with the data; then they are what was found.
+fn two_at_once(reference: &ReferenceModel, found: &mut Found) -> Result<bool, DiagnosisError> {
+    let (fits, noise) = reference.polished(distinct(reference.pairs()?))?;
     let fits = plainest(reference, found, fits);
     found.agrees = fits.first().is_some_and(|best| fits_well(reference, found, best));
     if found.agrees {
-        found.by_size.clear();
         found.by_size.push(FittedSets {
             scale: scale_of(&fits, reference.count()),
             probabilities: reference.probabilities(&fits),
