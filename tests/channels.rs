@@ -251,3 +251,12 @@ fn a_sensor_at_another_node_is_put_there_and_exchanged_points_take_their_force_a
     assert!(!text.contains("reference_dofs") && text.contains("\"4:+Z\" = 7"), "{text}");
     assert!(words(&diagnosed_again(&mended)).is_empty());
 }
+
+/// One hammer at three points, its cable turned: one parameter, not as many as there are sensors.
+#[test]
+fn a_reversed_hammer_that_roves_is_named_and_not_all_sensors() {
+    let folder = hit(&[7, 13, 19], "scale = -1.0\n");
+    let (document, mended) = diagnosed(folder.path());
+    assert_eq!(words(&document), ["all 3 force channels look reversed against the motions"]);
+    assert!(words(&diagnosed_again(&mended)).is_empty());
+}

@@ -79,7 +79,9 @@ impl Method {
             Self::Fritzen => {
                 ["Fritzen", "the motion of every DOF under known forces", "every mode must be brought out"]
             }
-            Self::Lancaster => ["Lancaster", "mass, scaled complex modes", "all modes; indefinite where truncated"],
+            Self::Lancaster => {
+                ["Lancaster", "mass, scaled complex modes", "viscous damping; all modes; indefinite where truncated"]
+            }
             Self::PilkeyInmanIterative => {
                 ["Pilkey and Inman, iterative", "mass, complex modes", "all modes; light damping"]
             }
@@ -94,13 +96,15 @@ impl Method {
             Self::AdhikariWoodhouseSymmetric => {
                 ["Adhikari and Woodhouse, symmetric", "mass, complex modes", "as the original"]
             }
-            Self::FrfInverse => {
-                ["Inverse of completed receptance", "mass, stiffness, scaled complex modes", "other modes undamped"]
-            }
+            Self::FrfInverse => [
+                "Inverse of completed receptance",
+                "mass, stiffness, scaled complex modes",
+                "viscous damping; other modes undamped",
+            ],
             Self::Liang => [
                 "Liang",
                 "mass, stiffness, the motion of every DOF, a pattern",
-                "small errors of phase ruin single rows",
+                "only lines that are runs; small errors of phase ruin single rows",
             ],
             Self::PhaniWoodhouse => {
                 ["Phani and Woodhouse", "the full receptance matrix, real modes", "first term of a series"]

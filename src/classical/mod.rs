@@ -39,6 +39,7 @@ pub mod minas_inman;
 mod neighbours;
 mod normal_sums;
 pub mod phani_woodhouse;
+mod phases;
 pub mod pilkey_inman;
 pub mod poly_reference;
 mod ratios;

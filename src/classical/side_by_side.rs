@@ -8,7 +8,7 @@ use super::method::Method;
 use super::poly_reference::{Extraction, extract};
 use super::reference_shapes::{Beside, ReferenceShape, beside};
 use super::responses::FrequencyResponses;
-use super::{errors, resonant};
+use super::{errors, phases, resonant};
 use crate::balance::expansion::Acting;
 use crate::balance::{Expander, Expansion, Measured};
 use crate::control::Control;
@@ -250,14 +250,20 @@ impl Data<'_> {
             Method::LeeKimViscous => super::lee_kim::lee_kim_viscous(self.receptance()?)?,
             Method::Instrumental => super::instrumental::instrumental(self.receptance()?)?.damping,
             Method::Fritzen => super::fritzen::fritzen(&self.loads()?)?.damping,
-            Method::Lancaster => super::lancaster::lancaster(m, self.modal()?)?,
+            Method::Lancaster => {
+                let modal = self.modal()?;
+                phases::remarked(super::lancaster::lancaster(m, modal)?, m, modal)
+            }
             Method::PilkeyInmanIterative => super::pilkey_inman::iterative(m, self.modal()?)?,
             Method::PilkeyInmanDirect => super::pilkey_inman::direct(m, k, self.modal()?)?,
             Method::Ibrahim => super::ibrahim::ibrahim(m, &self.model, self.modal()?)?,
             Method::MinasInman => super::minas_inman::minas_inman(m, k, self.modal()?)?,
             Method::AdhikariWoodhouse => return self.perturbation(),
             Method::AdhikariWoodhouseSymmetric => super::adhikari_woodhouse::symmetric(m, self.modal()?)?,
-            Method::FrfInverse => super::frf_inverse::frf_inverse(&self.model, self.modal()?)?,
+            Method::FrfInverse => {
+                let modal = self.modal()?;
+                phases::remarked(super::frf_inverse::frf_inverse(&self.model, modal)?, m, modal)
+            }
             Method::Liang => self.liang()?,
             Method::PhaniWoodhouse => self.phani_woodhouse()?,
         };

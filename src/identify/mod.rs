@@ -252,7 +252,9 @@ fn ranked(
     control: &Control,
 ) -> Result<Vec<SizeRanking>, IdentifyError> {
     let decided = |rankings: &[SizeRanking]| stopping::is_decided(problem, state, system, rankings, form);
-    search(problem, system, &decided, control)
+    let mut rankings = search(problem, system, &decided, control)?;
+    negligible::lift_the_rule(problem, state, &mut rankings);
+    Ok(rankings)
 }
 
 /// Solves for the coefficients of one set, moves to the motion that they give, and so on until nothing changes.

@@ -32,15 +32,15 @@ const UNITS: &[&str] = &[
     "knm",
     "m/s^2",
     "m/s2",
-    "m/s²",
     "m/s**2",
     "m/(s^2)",
     "m/s/s",
     "ms-2",
     "ms^-2",
+    "m*s-2",
+    "m*s^-2",
     "mm/s^2",
     "mm/s2",
-    "mm/s²",
     "in/s^2",
     "ft/s^2",
     "g",
@@ -136,6 +136,8 @@ const UNITS: &[&str] = &[
 pub fn is_unit(word: &str) -> bool {
     let plain = stripped(word.trim());
     let plain: String = plain.chars().filter(|c| !c.is_whitespace()).collect::<String>().to_lowercase();
+    // Raised signs and dots as they are typed: `m·s⁻²` is `m*s-2`.
+    let plain = plain.replace('⁻', "-").replace('²', "2").replace('·', "*");
     UNITS.contains(&plain.as_str()) || is_ratio(&plain) || reference_of_decibel(&plain).is_some()
 }
 
@@ -148,7 +150,7 @@ fn is_ratio(plain: &str) -> bool {
     }
     let inverse = plain.strip_prefix("(1/").or_else(|| plain.strip_prefix("1/"));
     if let Some(rest) = inverse {
-        let (under, over) = rest.split_once(['*', '·']).unwrap_or((rest, "m"));
+        let (under, over) = rest.split_once('*').unwrap_or((rest, "m"));
         return is_side(under.trim_end_matches(')')) && is_side(over);
     }
     plain.rsplit_once('/').is_some_and(|(over, under)| is_side(over) && is_side(under))
@@ -388,5 +390,6 @@ mod tests {
     #[test]
     fn brackets_around_a_unit_do_not_matter() {
         assert!(is_unit("[m/s^2]") && is_unit(" g ") && is_unit("(N)") && !is_unit("Voltage"));
+        assert!(is_unit("m·s⁻²") && is_unit("m/s²") && is_unit("(m/s²)/N"));
     }
 }

@@ -13,6 +13,8 @@
 use super::cells::{Cells, NextToMode};
 use super::fault::{ChannelFault, Fault, known_unit, quantity_of};
 use crate::math::statistics::median;
+use crate::measurement::Quantity;
+use crate::measurement::channel::STANDARD_GRAVITY;
 
 /// Largest distance of the apparent mass of a mode from that of all, natural logarithm.
 const WITHIN: f64 = 0.3;
@@ -46,7 +48,10 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
     if (shown as f64) < SHARE * masses.len() as f64 {
         return None;
     }
-    let (names, factor) = named(channels, forces, sign, middle)?;
+    // A hammer that roves is one channel, whatever the places it is named by.
+    let one_force =
+        forces.len() == 1 || cells.iter().filter_map(|cell| cell.nearest.as_ref()).all(|n| n.alone.is_some());
+    let (names, factor) = named(channels, (forces, one_force), sign, middle)?;
     let mended = if names[0].starts_with("force@") { factor } else { 1.0 / factor };
     let error = |by: f64| {
         let relative_error = |mass: f64| (mass / by - 1.0).abs() / (mass / by).abs().max(1.0);
@@ -63,17 +68,34 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
     })
 }
 
-/// The channels that are misread, and their factor: of the motions where they have one unit, else of the force.
-fn named(channels: &[String], forces: &[String], sign: f64, middle: f64) -> Option<(Vec<String>, f64)> {
+/// The channels that are misread, and their factor: of the motions where they have one unit, else of the forces, which are `one_force`
+/// where they act one at a time. A factor that either may have is that of one force rather than of several sensors, but for that of
+/// g, which all accelerometers of a system share and forces in kgf hardly have.
+fn named(
+    channels: &[String],
+    (forces, one_force): (&[String], bool),
+    sign: f64,
+    middle: f64,
+) -> Option<(Vec<String>, f64)> {
     if middle.abs() < UNCHANGED {
         // One cable of the force is turned sooner than those of all sensors.
-        let whose = if forces.len() == 1 { forces } else { channels };
+        let whose = if one_force && !forces.is_empty() { forces } else { channels };
         return (sign < 0.0 && !whose.is_empty()).then(|| (whose.to_vec(), -1.0));
     }
     let one_quantity = channels.windows(2).all(|pair| quantity_of(&pair[0]) == quantity_of(&pair[1]));
     let misread_as = |names: &[String], seen: f64| Some((names.to_vec(), sign * known_unit(names.first()?, seen)?));
     let motions = if one_quantity { misread_as(channels, (-middle).exp()) } else { None };
-    motions.or_else(|| misread_as(forces, middle.exp()))
+    let force = misread_as(forces, middle.exp());
+    let is_of_g = |(names, factor): &(Vec<String>, f64)| {
+        quantity_of(&names[0]) == Some(Quantity::Acceleration) && is_gravity(factor.abs())
+    };
+    let sooner_force = one_force && channels.len() > 1 && !motions.as_ref().is_some_and(is_of_g);
+    if sooner_force { force.or(motions) } else { motions.or(force) }
+}
+
+/// Whether a factor is that of g on m/s^2, one way or the other.
+fn is_gravity(factor: f64) -> bool {
+    [STANDARD_GRAVITY, 1.0 / STANDARD_GRAVITY].contains(&factor)
 }
 
 /// Apparent modal mass of every mode with runs on a line about it, and the number of these.

@@ -122,6 +122,7 @@ pub(super) fn ratio(header: &uff::FunctionHeader, units: Option<&uff::Units>) ->
 /// Units over and under the line; some programs write both into the ordinate, such as `(m/s^2)/N`.
 fn unit_texts(header: &uff::FunctionHeader) -> (String, String) {
     let (over, under) = (header.ordinate.unit.trim(), header.denominator.unit.trim());
+    let (over, under) = alike(over, under).unwrap_or((over, under));
     if is_bare(under)
         && LabUnit::from_name(over).is_none()
         && let Some(both) = split(over)
@@ -129,6 +130,20 @@ fn unit_texts(header: &uff::FunctionHeader) -> (String, String) {
         return both;
     }
     (over.to_string(), under.to_string())
+}
+
+/// Units of which both sides are root mean squares or both are peaks, without the word for it, which cancels: `g rms` over `N rms`.
+fn alike<'a>(over: &'a str, under: &'a str) -> Option<(&'a str, &'a str)> {
+    ["rms", "peak", "pk", "pp"].into_iter().find_map(|word| {
+        let without = |text: &'a str| {
+            let cut = text.len().checked_sub(word.len())?;
+            let (unit, end) = (text.get(..cut)?, text.get(cut..)?);
+            let apart = |c: char| c.is_whitespace() || matches!(c, '_' | '(' | ')');
+            let alone = end.eq_ignore_ascii_case(word) && unit.ends_with(apart);
+            alone.then(|| unit.trim_end_matches(apart))
+        };
+        Some((without(over)?, without(under)?))
+    })
 }
 
 /// Motion over force, or the inverse, of one unit, such as `(m/s^2)/N`, `g/lbf`, `(1/N)*(m/s^2)`, `1/kg`.
@@ -238,5 +253,6 @@ mod tests {
         assert_eq!(read("m/(N s)"), Some((Form::Mobility, 1.0)));
         assert_eq!(read("N s/m"), Some((Form::Impedance, 1.0)));
         assert_eq!((read("V/N"), read("m/s^2"), read("")), (None, None, None));
+        assert_eq!((alike("g rms", "N rms"), alike("g rms", "N"), alike("m/s^2", "N")), (Some(("g", "N")), None, None));
     }
 }

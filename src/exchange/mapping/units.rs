@@ -24,7 +24,7 @@ const SPELLINGS: [(&[&str], f64, Quantity); 25] = [
     (&["kn"], 1e3, Quantity::Force),
     (&["lbf", "lb", "lbs", "pound"], POUND_FORCE, Quantity::Force),
     (&["kgf", "kp"], STANDARD_GRAVITY, Quantity::Force),
-    (&["m/s2", "m/s²", "m/s**2", "ms-2", "m/(s2)", "m/s/s", "m*s-2"], 1.0, Quantity::Acceleration),
+    (&["m/s2", "m/s²", "m/s**2", "ms-2", "m/(s2)", "m/s/s", "m*s-2", "m.s-2"], 1.0, Quantity::Acceleration),
     (&["mm/s2", "mm/s²", "mm/s**2"], 1e-3, Quantity::Acceleration),
     (&["g", "gn", "g_n", "gs", "g's", "gravity"], STANDARD_GRAVITY, Quantity::Acceleration),
     (&["mg"], 1e-3 * STANDARD_GRAVITY, Quantity::Acceleration),
@@ -69,7 +69,7 @@ impl LabUnit {
         if plain == "MN" || plain == "Mg" {
             return None;
         }
-        let plain = plain.to_lowercase();
+        let plain = plain.to_lowercase().replace('⁻', "-").replace("s-²", "s-2").replace("·s-", "*s-");
         let find = |list: &[(&[&str], f64, Quantity)], rotation| {
             let found = list.iter().find(|(spellings, ..)| spellings.contains(&plain.as_str()));
             found.map(|&(_, to_si, quantity)| Self { to_si, quantity, rotation })

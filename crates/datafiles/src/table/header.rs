@@ -49,8 +49,13 @@ pub(crate) fn read(lines: &[HeaderLine], width: usize) -> Header {
     let lines = lines.as_slice();
     let Some((parts, lines)) = parts_beside_names(lines, width) else { return rows(lines, width) };
     let mut header = rows(&lines, width);
-    for (name, part) in header.names.iter_mut().zip(&parts.cells) {
-        if !part.trim().is_empty() {
+    for (c, (name, part)) in header.names.iter_mut().zip(&parts.cells).enumerate() {
+        let (own, unit) = split(part);
+        if c == 0 && kind_of(&own, &unit).is_some() {
+            // The row of the parts names the abscissa itself: what stands above it is no name of it.
+            *name = own;
+            header.units[0] = if unit.is_empty() { std::mem::take(&mut header.units[0]) } else { unit };
+        } else if !part.trim().is_empty() {
             *name = format!("{name} {}", part.trim()).trim().to_owned();
         }
     }
@@ -62,7 +67,9 @@ fn words_of_comment(line: &HeaderLine, width: usize) -> HeaderLine {
     let [cell] = &line.cells[..] else { return line.clone() };
     let words: Vec<String> = uncommented(cell).split_whitespace().map(str::to_owned).collect();
     let commented = uncommented(cell) != cell.trim();
-    if commented && width > 1 && words.len() == width { HeaderLine { cells: words } } else { line.clone() }
+    // `# Unit : m/s²/N` is a remark of its own.
+    let remark = words.iter().any(|word| matches!(word.as_str(), ":" | "="));
+    if commented && width > 1 && words.len() == width && !remark { HeaderLine { cells: words } } else { line.clone() }
 }
 
 /// A row of `Real`, `Imag` (or `Mag [g/N]`, `Phase [deg]`) beside names that stand once over both: the row, and the other lines
@@ -83,8 +90,9 @@ fn parts_beside_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine,
     let named = |i: &usize| {
         let i = *i;
         let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
-        // `Signal:` in front of a text is a label, no name over columns.
-        let labels = lines[i].cells[0].trim_end().ends_with(':');
+        // `Signal:` in front of a text is a label, no name over columns, and so is what stands before nothing but a unit.
+        let only_units = lines[i].cells[1..].iter().filter(|cell| !cell.is_empty()).all(|cell| is_unit(cell));
+        let labels = lines[i].cells[0].trim_end().ends_with(':') || only_units;
         lines[i].cells.len() > 1
             && fits(&lines[i].cells, width)
             && filled > 1
@@ -174,7 +182,9 @@ fn unit_of_functions(cells: &[String]) -> Option<String> {
         ["amplitude unit", "y-axis unit", "y axis unit", "y unit", "ordinate unit", "frf unit", "amplitudeneinheit"];
     let rest = rest.trim().split(['\t', ';', ',']).next()?.split("  ").next()?.trim();
     let unit = stripped(rest);
-    (words.contains(&label(front).as_str()) && unit.contains('/') && is_unit(unit)).then(|| unit.to_owned())
+    let front = label(front);
+    ((front == "unit" || words.contains(&front.as_str())) && unit.contains('/') && is_unit(unit))
+        .then(|| unit.to_owned())
 }
 
 /// Rows of names and units by their place right above the numbers.
@@ -377,5 +387,10 @@ mod tests {
         assert_eq!((header.names[2].as_str(), header.units[2].as_str()), ("H11 Im", "m/s²/N"));
         let header = read(&lines(&["Point;Beam:1;Direction;+Z", "Frequency;Real;Imag", "Hz;g/N;g/N"]), 3);
         assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "g/N"));
+        let said = ["X-axis unit;Hz", "Y-axis unit;(m/s²)/N", "Frequency [Hz];Real;Imaginary"];
+        let header = read(&lines(&said), 3);
+        assert_eq!((header.names[0].as_str(), header.units[0].as_str()), ("Frequency", "Hz"));
+        let header = read(&lines(&["# Type : FRF H1", "# Unit : m/s²/N", "# X Axis : Hz", "Frequency;Real;Imag"]), 3);
+        assert_eq!((header.names.join(",").as_str(), header.units[2].as_str()), ("Frequency,Real,Imag", "m/s²/N"));
     }
 }

@@ -6,6 +6,7 @@ mod names;
 mod points;
 mod sets;
 mod source;
+mod timeseries;
 
 pub(crate) use names::{Sampling, sampling};
 pub(crate) use sets::sets;

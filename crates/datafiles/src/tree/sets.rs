@@ -8,6 +8,7 @@ use super::headers::with_headers;
 use super::labels::Labels;
 use super::names::{self, Sampling};
 use super::source::Place;
+use super::timeseries::name_data;
 use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
@@ -120,6 +121,7 @@ impl Made<'_> {
                 Node::Group(_) => {}
             }
         }
+        name_data(&mut set, path, entries);
         finish(&mut set, entries, attributes, axis);
         super::points::attach(&mut set, entries, attributes, self.arrays)?;
         for (name, value) in attributes {
