@@ -202,11 +202,14 @@ fn exchanged_cables() {
 }
 
 #[test]
-fn a_sensor_and_a_force_elsewhere() {
+fn a_sensor_elsewhere() {
     let sensor = |header: &str| header.replace("acc@11", "acc@9");
     let place = "acc@9 fits the motion of the model at DOF 11: is the sensor there?";
     named(&BEAM, Tests::Hammer, sensor, ("none", 1.0), place);
-    named(&BEAM, Tests::Both, sensor, ("none", 1.0), place);
+}
+
+#[test]
+fn a_force_elsewhere() {
     let force = |header: &str| header.replace("force@15", "force@11");
     named(
         &BEAM,
@@ -236,13 +239,26 @@ fn what_cannot_be_told_is_not_said() {
     assert!(words(&said(folder.path()).0).is_empty());
 }
 
+/// A sound project raises no alarm.
+fn is_sound(specimen: &Specimen, (tests, factor): (Tests, f64), hidden: Option<usize>) {
+    let folder = specimen.recorded(tests, factor, hidden);
+    let document = diagnosed(&[], &[&folder.path().join("project.toml")]);
+    assert!(words(&document).is_empty(), "{factor} {hidden:?}: {:?}", words(&document));
+}
+
 #[test]
 fn sound_channels_raise_no_alarm() {
-    for (tests, factor) in [(Tests::Hammer, 0.98), (Tests::Decay, 1.02), (Tests::Both, 1.01)] {
+    is_sound(&CHAIN, (Tests::Both, 1.01), Some(1));
+    is_sound(&BEAM, (Tests::Hammer, 0.98), None);
+    is_sound(&BEAM, (Tests::Decay, 1.02), Some(1));
+}
+
+#[test]
+#[ignore = "a minute: all kinds of tests of both structures, with an effect hidden and without"]
+fn no_sound_channel_raises_an_alarm() {
+    for test in [(Tests::Hammer, 0.98), (Tests::Decay, 1.02), (Tests::Both, 1.01)] {
         for (specimen, hidden) in [(&CHAIN, Some(1)), (&BEAM, None), (&CHAIN, None), (&BEAM, Some(1))] {
-            let folder = specimen.recorded(tests, factor, hidden);
-            let document = diagnosed(&[], &[&folder.path().join("project.toml")]);
-            assert!(words(&document).is_empty(), "{factor} {hidden:?}: {:?}", words(&document));
+            is_sound(specimen, test, hidden);
         }
     }
 }

@@ -236,6 +236,13 @@ impl<'a> Records<'a> {
     }
 }
 
+impl Records<'_> {
+    /// Number of samples of all channels of all records.
+    pub(super) fn samples(&self) -> usize {
+        self.list.iter().map(|r| r.len() * r.channels.len()).sum()
+    }
+}
+
 impl RecordData {
     /// The run at a lower rate where its own is many times that of the motion of modes up to `last_hz`: nothing is to be seen in between,
     /// and every fit would take as many times longer. Of a long record that is so many times the frequency of its largest motion.

@@ -19,6 +19,7 @@ mod followed;
 mod force_noise;
 mod free_force;
 mod held;
+mod initial_states;
 mod laws;
 pub(crate) mod localisation;
 mod missing_force;

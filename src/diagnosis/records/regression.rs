@@ -47,8 +47,6 @@ pub(crate) struct Regressed {
 pub(crate) struct Regression<'a> {
     records: &'a Records<'a>,
     parts: Vec<ModalEquations>,
-    /// Number of the run of each.
-    runs: Vec<usize>,
     /// Orthonormal columns of the nuisances, prior rows behind.
     nuisances: Vec<Vec<f64>>,
     /// The columns themselves, with the nuisance that one of each stands for.
@@ -62,11 +60,8 @@ pub(crate) struct Regression<'a> {
 impl<'a> Regression<'a> {
     /// Of the records beside what `fit` holds; `None` where no record's sensors tell a mode apart.
     pub(super) fn new(records: &'a Records<'a>, fit: &FittedRecords, control: &Control) -> Option<Self> {
-        let of = |r: &RecordData| {
-            let equations = ModalEquations::new(Motion::new(&records.modes, &r.run, control).ok()?)?;
-            Some((r.index, equations))
-        };
-        let (runs, made): (Vec<usize>, Vec<ModalEquations>) = records.list.iter().filter_map(of).unzip();
+        let of = |r: &RecordData| ModalEquations::new(Motion::new(&records.modes, &r.run, control).ok()?);
+        let made: Vec<ModalEquations> = records.list.iter().filter_map(of).collect();
         if made.is_empty() {
             return None;
         }
@@ -106,7 +101,6 @@ impl<'a> Regression<'a> {
         let base = Self {
             records,
             parts: made,
-            runs,
             nuisances: Vec::new(),
             columns: Vec::new(),
             measured: Vec::new(),
@@ -133,24 +127,6 @@ impl<'a> Regression<'a> {
         self.left = self.beside(self.beside(measured.to_vec()));
         self.measured = measured.to_vec();
         self
-    }
-
-    /// The state in which each of some records, or parts of them, begins as the sensors show it; none where they do not.
-    pub(super) fn measured_states(&self, records: &Records) -> Vec<Option<Vec<f64>>> {
-        let state = |record: &RecordData| {
-            let motion = &self.parts[self.runs.iter().position(|run| *run == record.index)?].motion;
-            let sample = ((record.first_s - record.run.time()[0]) / motion.step).round() as usize;
-            if !motion.usable.contains(&sample) {
-                return None;
-            }
-            let mut state = vec![0.0; 2 * records.kept];
-            for (r, &mode) in motion.band.modes.iter().enumerate().filter(|(_, mode)| **mode < records.kept) {
-                state[mode] = motion.q[r][sample];
-                state[records.kept + mode] = motion.v[r][sample] / motion.band.omega[r];
-            }
-            Some(state)
-        };
-        records.list.iter().map(state).collect()
     }
 
     /// Weighted squared residual without any law.

@@ -9,12 +9,14 @@ use super::problem::{FitProblem, Free};
 use super::regression::Regression;
 use super::rivals::{GivenUp, is_same_set, unlike};
 use super::telling::{last_deviations, plainest};
+use crate::balance::windows::motion::Motion;
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Family, Place, Source};
 use crate::structure::{Part, Structure};
+use std::sync::OnceLock;
 
 /// Rounds and steps in each of the first fits, of the fits of those that are followed, and how many are; steps of a correction.
 const BEGINNING: [usize; 2] = [1, 3];
@@ -28,8 +30,6 @@ pub(super) const FEW_MODES: usize = 2;
 /// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
 const ROUNDS: usize = 4;
 const ENDED: f64 = 0.8;
-/// Share of each part of a decay that is fitted first.
-const FIRST: f64 = 0.35;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
@@ -39,6 +39,8 @@ const FURTHER: [usize; 2] = [24, 8];
 const BEGUN: usize = 28;
 /// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
 const RIVALS: usize = 4;
+/// Misfit on longer parts over that on shorter ones from which on the phase is lost there.
+const LOST: f64 = 4.0;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
 const BEHIND: f64 = 80.0;
 const LEAST_RIVALS: usize = 2;
@@ -63,6 +65,8 @@ pub(super) struct Search<'a> {
     pub control: &'a Control,
     /// Sets with a neighbour of the best law that left hopelessly much on shorter parts, where no phase is lost.
     pub given_up: GivenUp,
+    /// The motion of the modes as the sensors show it, once it was asked for.
+    pub motions: OnceLock<Vec<(usize, Motion)>>,
 }
 
 /// Parts of the structure with their factors.
@@ -89,8 +93,8 @@ impl<'a> Search<'a> {
         (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
         control: &'a Control,
     ) -> Self {
-        let (levels, given_up) = (weighted.levels(), GivenUp::default());
-        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up }
+        let (levels, given_up, motions) = (weighted.levels(), GivenUp::default(), OnceLock::new());
+        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up, motions }
     }
 
     /// The structure as it is stated with its supports and other parts corrected.
@@ -148,7 +152,7 @@ impl Search<'_> {
         }
         let states = first_states(records, start.clone(), self.control)?.initial;
         let initial = found.iter().zip(states).map(|(k, own)| k.map_or(own, |k| fit.initial[k].clone())).collect();
-        Ok(FittedRecords { initial, ..start })
+        Ok(self.from_best_states(to, FittedRecords { initial, ..start }))
     }
 
     /// Initial states and effects only, nothing corrected.
@@ -222,10 +226,10 @@ impl Search<'_> {
         let alone = self.control.alone();
         let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
-        // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
-        // phase of a decay is lost within a part: its first periods are fitted first.
+        // A start that runs away, or a mass that takes away all there is, is no start. One that leaves more than there is without it has
+        // lost the phase, as that of a decay of few modes.
         let begin = |start: &FittedRecords| {
-            let first = if free { self.fit_by(level, start, (FIRST, BEGINNING), &alone).ok() } else { None };
+            let first = self.in_phase(level, start, (best.chi_square, free), BEGINNING).ok();
             self.fit_by(level, first.as_ref().unwrap_or(start), (1.0, BEGINNING), &alone).ok()
         };
         let mut found: Vec<FittedRecords> = Vec::new();
@@ -282,7 +286,11 @@ impl Search<'_> {
             let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
             few.truncate(near.max(LEAST_RIVALS));
         }
-        let carry = |k: usize| self.carried(&few[k], level, level + 1).ok();
+        let carry = |k: usize| {
+            let start = self.carried(&few[k], level, level + 1).ok()?;
+            let most = LOST * few[k].chi_square / few[k].count as f64 * self.levels[level + 1].samples() as f64;
+            self.in_phase(level + 1, &start, (most, false), CARRYING[0]).ok()
+        };
         let starts: Vec<FittedRecords> = self.control.map(few.len(), carry).into_iter().flatten().collect();
         let alone = self.control.alone();
         let longer = |list: &[FittedRecords], rounds| -> Vec<FittedRecords> {

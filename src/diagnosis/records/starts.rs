@@ -33,42 +33,15 @@ impl Search<'_> {
     pub(super) fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
         let sources = self.beginnings(level, best, base, regression.as_ref());
-        let measured = regression.as_ref().map(|r| r.measured_states(&self.levels[level])).unwrap_or_default();
         let of = |k: usize| {
             if let Some(regression) = &regression {
-                return self.from_best_states(level, regression.tuned(base, Some(&sources[k])), &measured);
+                return self.from_best_states(level, regression.tuned(base, Some(&sources[k])));
             }
             let mut start = base.clone();
             start.effects.push(sources[k].clone());
             start
         };
         self.control.map(sources.len(), of)
-    }
-
-    /// A start whose parts of records begin each in the state that leaves least: that of the start, the `measured` one, or at rest
-    /// where a force begins to act. The states of a fit without the law are bent to what the law does.
-    fn from_best_states(&self, level: usize, start: FittedRecords, measured: &[Option<Vec<f64>>]) -> FittedRecords {
-        if start.effects.iter().all(|e| e.effect.is_linear()) {
-            return start;
-        }
-        let records = &self.levels[level];
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
-        let own = |k: usize| start.initial[k].clone();
-        let shown = |k: usize| measured.get(k).cloned().flatten().unwrap_or_else(|| own(k));
-        let at_rest = |k: usize| if records.list[k].forces.is_empty() { own(k) } else { vec![0.0; 2 * records.kept] };
-        let all = |state: &dyn Fn(usize) -> Vec<f64>| (0..records.list.len()).map(state).collect::<Vec<_>>();
-        let of = |initial: Vec<Vec<f64>>| {
-            let candidate = FittedRecords { initial, ..start.clone() };
-            let left = problem.left(&candidate).ok()?;
-            let squares = left.residual.iter().map(|record| record.iter().flatten().map(|e| e * e).sum::<f64>());
-            Some((squares.collect::<Vec<f64>>(), candidate.initial))
-        };
-        let candidates: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
-            [all(&own), all(&shown), all(&at_rest)].into_iter().filter_map(of).collect();
-        let best = |k: usize| candidates.iter().min_by(|a, b| a.0[k].total_cmp(&b.0[k])).map(|c| c.1[k].clone());
-        let initial = (0..records.list.len()).map(|k| best(k).unwrap_or_else(|| own(k))).collect();
-        FittedRecords { initial, ..start }
     }
 
     /// Laws at places from which fits begin: those that the equation of motion demands, else a grid of all.

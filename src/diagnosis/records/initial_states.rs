@@ -1,0 +1,112 @@
+//! The states in which records, and parts of them, begin, where a fit of a law that is strong may begin: the states of a fit without
+//! the law are bent to what the law does, and far from its own a fit loses the phase within a few periods.
+
+use super::data::{RecordData, RecordError, Records};
+use super::fitted::FittedRecords;
+use super::search::Search;
+use crate::balance::windows::motion::Motion;
+use crate::control::Control;
+
+/// Share of each part of the records that is fitted first where the phase is lost.
+const FIRST: f64 = 0.35;
+
+/// The motion of the modes as the sensors show it, each with the number of its run; none of runs whose sensors tell no mode.
+pub(super) fn measured_motions(records: &Records, control: &Control) -> Vec<(usize, Motion)> {
+    let of = |r: &RecordData| Some((r.index, Motion::new(&records.modes, &r.run, control).ok()?));
+    records.list.iter().filter_map(of).collect()
+}
+
+/// The state in which a record, or a part of one, begins as the sensors show it; none where they do not.
+fn measured_state(motions: &[(usize, Motion)], record: &RecordData, kept: usize) -> Option<Vec<f64>> {
+    let (_, motion) = motions.iter().find(|(run, _)| *run == record.index)?;
+    let sample = ((record.first_s - record.run.time()[0]) / motion.step).round() as usize;
+    if !motion.usable.contains(&sample) {
+        return None;
+    }
+    let mut state = vec![0.0; 2 * kept];
+    for (r, &mode) in motion.band.modes.iter().enumerate().filter(|(_, mode)| **mode < kept) {
+        state[mode] = motion.q[r][sample];
+        state[kept + mode] = motion.v[r][sample] / motion.band.omega[r];
+    }
+    Some(state)
+}
+
+impl Search<'_> {
+    /// A start whose parts of records begin each in the state that leaves least: that of the start, that which the sensors show, or at
+    /// rest where a force acts. Of linear effects it is left as it is: their fits find the state in one step.
+    pub(super) fn from_best_states(&self, level: usize, start: FittedRecords) -> FittedRecords {
+        if start.effects.iter().all(|e| e.effect.is_linear()) {
+            return start;
+        }
+        let (records, kept) = (&self.levels[level], self.records.kept);
+        let alone = self.control.alone();
+        let problem = self.problem(level, 1.0, &alone);
+        let motions = self.motions.get_or_init(|| measured_motions(self.records, &alone));
+        let own = |k: usize| start.initial[k].clone();
+        let shown = |k: usize| measured_state(motions, &records.list[k], kept).unwrap_or_else(|| own(k));
+        let at_rest = |k: usize| if records.list[k].forces.is_empty() { own(k) } else { vec![0.0; 2 * kept] };
+        let all = |state: &dyn Fn(usize) -> Vec<f64>| (0..records.list.len()).map(state).collect::<Vec<_>>();
+        let of = |initial: Vec<Vec<f64>>| {
+            let candidate = FittedRecords { initial, ..start.clone() };
+            let left = problem.left(&candidate).ok()?;
+            let squares = left.residual.iter().map(|record| record.iter().flatten().map(|e| e * e).sum::<f64>());
+            Some((squares.collect::<Vec<f64>>(), candidate.initial))
+        };
+        let candidates: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
+            [all(&own), all(&shown), all(&at_rest)].into_iter().filter_map(of).collect();
+        let best = |k: usize| candidates.iter().min_by(|a, b| a.0[k].total_cmp(&b.0[k])).map(|c| c.1[k].clone());
+        let initial = (0..records.list.len()).map(|k| best(k).unwrap_or_else(|| own(k))).collect();
+        FittedRecords { initial, ..start }
+    }
+
+    /// A start whose first periods are fitted before the whole parts, where it leaves more than `most`, or at once where that is asked:
+    /// where a frequency follows the amplitude the phase is lost within a part.
+    pub(super) fn in_phase(
+        &self,
+        level: usize,
+        start: &FittedRecords,
+        (most, at_once): (f64, bool),
+        rounds: [usize; 2],
+    ) -> Result<FittedRecords, RecordError> {
+        let alone = self.control.alone();
+        let nonlinear = start.effects.iter().any(|e| !e.effect.is_linear());
+        let lost = || self.problem(level, 1.0, &alone).left(start).is_ok_and(|left| left.chi_square > most);
+        if at_once || nonlinear && lost() {
+            return self.problem(level, FIRST, &alone).begin(start, rounds);
+        }
+        Ok(start.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+
+    /// The state at any sample of a free motion in both modes is that of the modes.
+    #[test]
+    fn sensors_show_the_state_of_the_modes() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let modes = structure.modes().unwrap();
+        let step = 4e-3;
+        let q = |n: usize, r: usize| {
+            let (a, t) = ([0.02, 0.006][r], step * n as f64);
+            let (decay, phase) = ((-0.25 * t).exp(), modes.omega[r] * t);
+            [a * decay * phase.cos(), a * decay * (-0.25 * phase.cos() / modes.omega[r] - phase.sin())]
+        };
+        let shown = |n: usize, dof: usize| (0..2).map(|r| modes.shapes[(dof, r)] * q(n, r)[0]).sum();
+        let run = decay(step, (0..2).map(|dof| (0..4000).map(|n| shown(n, dof)).collect()).collect());
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let motions = measured_motions(&records, &Control::unattended());
+        let mut part = records.list[0].clone();
+        part.first_s += 1500.0 * step;
+        let state = measured_state(&motions, &part, 2).unwrap();
+        for r in 0..2 {
+            let [d, v] = q(1500, r);
+            let size = d.hypot(v);
+            assert!((state[r] - d).abs() < 0.02 * size && (state[2 + r] - v).abs() < 0.02 * size, "{state:?} {d} {v}");
+        }
+    }
+}
