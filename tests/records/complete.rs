@@ -233,3 +233,15 @@ fn a_short_blow_with_a_flat_top_is_clipped() {
         assert!(!is_clipped(samples, 1.0), "{samples}");
     }
 }
+
+/// A blow bends what the linear part of a model shows of the start: a strong spring is followed from rest all the same.
+#[test]
+fn a_struck_beam_with_a_strong_cubic_spring_is_predicted() {
+    let structure = cantilever(8);
+    let spring = Source::known(Effect::CubicStiffness, Place::Dofs(vec![12]), &[1e8]);
+    let truth = vec![whole(Effect::StiffnessProportional, 4e-5), spring];
+    let runs = Test { truth: &truth, ..beam(&structure, BEAM_BLOW) }.runs(0.005, 0..1);
+    let records = Records::new(&structure, &truth, &runs).unwrap();
+    let found = compare_records(&records, &[], &Control::unattended()).unwrap();
+    assert!(found.error < 0.03 && found.error < 3.0 * found.noise_floor, "{} {}", found.error, found.noise_floor);
+}

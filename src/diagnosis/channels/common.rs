@@ -162,10 +162,15 @@ mod tests {
         let names = |list: &[&str]| list.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let (motions, force) = (names(&["acc@3", "acc@5"]), names(&["force@5"]));
         let g = 9.806_65_f64;
-        assert_eq!(named(&motions, &force, 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
-        assert_eq!(named(&motions, &force, -1.0, 0.02), Some((force.clone(), -1.0)));
-        assert_eq!(named(&motions, &force, 1.0, 0.02), None);
-        assert_eq!(named(&motions, &force, 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force));
-        assert_eq!(named(&motions, &[], 1.0, 2.0_f64.ln()), None);
+        assert_eq!(named(&motions, (&force, true), 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
+        assert_eq!(named(&motions, (&force, true), -1.0, 0.02), Some((force.clone(), -1.0)));
+        assert_eq!(named(&motions, (&force, true), 1.0, 0.02), None);
+        assert_eq!(named(&motions, (&force, true), 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force.clone()));
+        assert_eq!(named(&motions, (&[], true), 1.0, 2.0_f64.ln()), None);
+        // A thousandth may be that of either: of one force rather than of all sensors, but not of several forces.
+        let of_either = |one_force| named(&motions, (&force, one_force), 1.0, 1e3_f64.ln()).map(|found| found.0);
+        assert_eq!(of_either(true), Some(force.clone()));
+        assert_eq!(of_either(false), Some(motions.clone()));
+        assert_eq!(named(&motions, (&force, false), -1.0, 0.02).map(|found| found.0), Some(motions.clone()));
     }
 }

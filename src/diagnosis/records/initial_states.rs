@@ -9,6 +9,8 @@ use crate::control::Control;
 
 /// Share of each part of the records that is fitted first where the phase is lost.
 const FIRST: f64 = 0.35;
+/// Rounds and steps of that fit on longer parts.
+const IN_PHASE: [usize; 2] = [2, 4];
 
 /// The motion of the modes as the sensors show it, each with the number of its run; none of runs whose sensors tell no mode.
 pub(super) fn measured_motions(records: &Records, control: &Control) -> Vec<(usize, Motion)> {
@@ -59,22 +61,23 @@ impl Search<'_> {
         FittedRecords { initial, ..start }
     }
 
-    /// A start whose first periods are fitted before the whole parts, where it leaves more than `most`, or at once where that is asked:
-    /// where a frequency follows the amplitude the phase is lost within a part.
-    pub(super) fn in_phase(
+    /// A start whose first periods are fitted before the whole parts where it leaves more than `most` of them: with a law that is not
+    /// linear it has lost the phase on the way.
+    pub(super) fn in_phase(&self, level: usize, start: FittedRecords, most: f64) -> Result<FittedRecords, RecordError> {
+        let alone = self.control.alone();
+        let nonlinear = start.effects.iter().any(|e| !e.effect.is_linear());
+        let lost = || self.problem(level, 1.0, &alone).left(&start).is_ok_and(|left| left.chi_square > most);
+        if nonlinear && lost() { self.fit_first_periods(level, &start, IN_PHASE) } else { Ok(start) }
+    }
+
+    /// A fit of the first periods of each part of the records.
+    pub(super) fn fit_first_periods(
         &self,
         level: usize,
         start: &FittedRecords,
-        (most, at_once): (f64, bool),
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        let alone = self.control.alone();
-        let nonlinear = start.effects.iter().any(|e| !e.effect.is_linear());
-        let lost = || self.problem(level, 1.0, &alone).left(start).is_ok_and(|left| left.chi_square > most);
-        if at_once || nonlinear && lost() {
-            return self.problem(level, FIRST, &alone).begin(start, rounds);
-        }
-        Ok(start.clone())
+        self.problem(level, FIRST, &self.control.alone()).begin(start, rounds)
     }
 }
 

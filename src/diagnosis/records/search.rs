@@ -226,10 +226,10 @@ impl Search<'_> {
         let alone = self.control.alone();
         let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
-        // A start that runs away, or a mass that takes away all there is, is no start. One that leaves more than there is without it has
-        // lost the phase, as that of a decay of few modes.
+        // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
+        // phase of a decay is lost within a part.
         let begin = |start: &FittedRecords| {
-            let first = self.in_phase(level, start, (best.chi_square, free), BEGINNING).ok();
+            let first = if free { self.fit_first_periods(level, start, BEGINNING).ok() } else { None };
             self.fit_by(level, first.as_ref().unwrap_or(start), (1.0, BEGINNING), &alone).ok()
         };
         let mut found: Vec<FittedRecords> = Vec::new();
@@ -289,7 +289,7 @@ impl Search<'_> {
         let carry = |k: usize| {
             let start = self.carried(&few[k], level, level + 1).ok()?;
             let most = LOST * few[k].chi_square / few[k].count as f64 * self.levels[level + 1].samples() as f64;
-            self.in_phase(level + 1, &start, (most, false), CARRYING[0]).ok()
+            self.in_phase(level + 1, start, most).ok()
         };
         let starts: Vec<FittedRecords> = self.control.map(few.len(), carry).into_iter().flatten().collect();
         let alone = self.control.alone();
