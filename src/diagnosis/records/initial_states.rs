@@ -36,7 +36,7 @@ fn measured_state(motions: &[(usize, Motion)], record: &RecordData, kept: usize)
 impl Search<'_> {
     /// A start whose parts of records begin each in the state that leaves least: that of the start, that which the sensors show, or at
     /// rest where a force acts. Of linear effects it is left as it is: their fits find the state in one step.
-    pub(super) fn from_best_states(&self, level: usize, start: FittedRecords) -> FittedRecords {
+    pub(super) fn in_best_states(&self, level: usize, start: FittedRecords) -> FittedRecords {
         if start.effects.iter().all(|e| e.effect.is_linear()) {
             return start;
         }

@@ -152,7 +152,7 @@ impl Search<'_> {
         }
         let states = first_states(records, start.clone(), self.control)?.initial;
         let initial = found.iter().zip(states).map(|(k, own)| k.map_or(own, |k| fit.initial[k].clone())).collect();
-        Ok(self.from_best_states(to, FittedRecords { initial, ..start }))
+        Ok(self.in_best_states(to, FittedRecords { initial, ..start }))
     }
 
     /// Initial states and effects only, nothing corrected.

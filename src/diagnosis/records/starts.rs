@@ -35,7 +35,7 @@ impl Search<'_> {
         let sources = self.beginnings(level, best, base, regression.as_ref());
         let of = |k: usize| {
             if let Some(regression) = &regression {
-                return self.from_best_states(level, regression.tuned(base, Some(&sources[k])));
+                return self.in_best_states(level, regression.tuned(base, Some(&sources[k])));
             }
             let mut start = base.clone();
             start.effects.push(sources[k].clone());
