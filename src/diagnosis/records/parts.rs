@@ -10,7 +10,7 @@ use super::weights::local;
 
 /// Periods of the dominant motion in the shortest parts.
 const PERIODS: f64 = 8.0;
-/// Least length of a part, as a share of that many periods of the dominant motion.
+/// Least length of a part, as a share of that many periods of the dominant motion: two periods hold its amplitude and its damping.
 const LEAST_SHARE: f64 = 0.25;
 /// Ratio of the lengths of parts from one level to the next; of long records in which forces act all the time, which hold the phase.
 const GROWTH: f64 = 3.0;

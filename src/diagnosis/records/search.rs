@@ -23,7 +23,8 @@ const BEGINNING: [usize; 2] = [1, 3];
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
 const CORRECTING: [usize; 2] = [3, 4];
-/// Fits that are begun beside those that are there, of which as many are followed.
+/// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
+/// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
@@ -39,7 +40,8 @@ const FURTHER: [usize; 2] = [24, 8];
 const BEGUN: usize = 28;
 /// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
 const RIVALS: usize = 4;
-/// Misfit on longer parts over that on shorter ones from which on the phase is lost there.
+/// Misfit on longer parts over that on shorter ones from which on the phase is lost there: residuals are twice what they were, which
+/// corrections that drift do not make.
 const LOST: f64 = 4.0;
 /// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
 const BEHIND: f64 = 80.0;
