@@ -41,8 +41,8 @@ pub(crate) struct Proposal {
 
 /// What a record looks like.
 pub(crate) fn propose(record: &Record) -> Proposal {
-    let force = envelope(record, |quantity| quantity == Quantity::Force);
-    let motion = envelope(record, |quantity| quantity != Quantity::Force);
+    let force = envelope(record, drives);
+    let motion = envelope(record, |quantity| !drives(quantity));
     let most = force.iter().copied().fold(0.0, f64::max);
     let acts: Vec<usize> = (0..force.len()).filter(|&b| force[b] > NO_FORCE * most).collect();
     let time = |block: usize| record.time()[(block * record.len() / BLOCKS).min(record.len() - 1)];
@@ -55,11 +55,16 @@ pub(crate) fn propose(record: &Record) -> Proposal {
     }
 }
 
+/// Whether a quantity is what drives the structure: a force, or its base.
+fn drives(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Force | Quantity::Base)
+}
+
 /// Time (s) from which on a record of a decay shows it, where it begins earlier: at rest or held still, under a force that ends,
 /// or driven evenly. None where it may begin at once.
 pub(super) fn release(record: &Record) -> Option<f64> {
-    let force = envelope(record, |quantity| quantity == Quantity::Force);
-    let motion = envelope(record, |quantity| quantity != Quantity::Force);
+    let force = envelope(record, drives);
+    let motion = envelope(record, |quantity| !drives(quantity));
     let most = force.iter().copied().fold(0.0, f64::max);
     let driven = force.iter().rposition(|f| most > 0.0 && *f > NO_FORCE * most).map_or(0, |last| last + 1);
     let first_sample = |block: usize| block * record.len() / BLOCKS;
@@ -138,9 +143,14 @@ fn free(record: &Record, motion: &[f64], at: impl Fn(usize) -> f64) -> Proposal 
 
 /// Steady where few lines hold the power.
 fn driven(record: &Record, quantity: Quantity) -> Proposal {
-    let like = |c: &usize| (record.channels()[*c].quantity == Quantity::Force) == (quantity == Quantity::Force);
+    let like = |c: &usize| drives(record.channels()[*c].quantity) == drives(quantity);
     let share = (0..record.channels().len()).filter(like).map(|c| concentration(record, c)).fold(0.0, f64::max);
-    let what = if quantity == Quantity::Force { "force" } else { "motion" };
+    let moving_base = record.channels().iter().any(|channel| channel.quantity == Quantity::Base);
+    let what = match (drives(quantity), moving_base) {
+        (true, true) => "motion of the base",
+        (true, false) => "force",
+        _ => "motion",
+    };
     let (kind, word) = if share >= PERIODIC { (Kind::Steady, "periodic") } else { (Kind::Transient, "not periodic") };
     let reason =
         format!("the {what} is {word}: {:.0} % of its power lies on one frequency and its multiples", 100.0 * share);

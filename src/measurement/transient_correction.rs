@@ -61,7 +61,8 @@ impl TransientRun {
             record = unwindowed(&record, constant);
         }
         let TransientLabel { file, kind, part, level, session, enabled, exponential_window_s } = label;
-        let mut run = Self { file, record, kind, part, level, session, enabled, findings: Vec::new(), samples };
+        let (findings, on_moving_base) = (Vec::new(), false);
+        let mut run = Self { file, record, kind, part, level, session, enabled, findings, on_moving_base, samples };
         run.findings = transient_quality::assess(&run);
         run.findings.extend(exponential_window_s.map(|constant| windowed(&run, constant)));
         run.findings.extend(released_s.map(released));

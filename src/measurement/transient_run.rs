@@ -27,6 +27,8 @@ pub struct TransientRun {
     pub enabled: bool,
     /// What is wrong with the record, each with its reason in words.
     pub findings: Vec<Finding>,
+    /// Whether its forces are those of a moving base, whose acceleration was measured in their place.
+    pub(crate) on_moving_base: bool,
     pub(super) samples: Range<usize>,
 }
 

@@ -115,7 +115,8 @@ impl Numbers<'_> {
         line.forces.iter().map(|(c, force)| force * modes.shapes[(self.channel(*c).dof, mode)]).sum()
     }
 
-    /// The mode next to the line, where a force is measured.
+    /// The mode next to the line, where a force is measured; none on a base that moves, since motions relative to it have no factor in
+    /// common with those that were measured.
     fn nearest(
         &self,
         modes: &Modes,
@@ -123,7 +124,7 @@ impl Numbers<'_> {
         near: &[usize],
         shape: &dyn Fn(usize) -> Vec<f64>,
     ) -> Option<Nearest> {
-        let mode = *near.first().filter(|_| line.s.is_some())?;
+        let mode = *near.first().filter(|_| line.s.is_some() && !self.run.on_moving_base)?;
         let count = line.motion.len().saturating_sub(1);
         let told: Vec<usize> = by_distance(modes, line.omega).into_iter().take(count).collect();
         let alone = match line.forces[..] {

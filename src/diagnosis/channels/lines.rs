@@ -70,11 +70,8 @@ pub(super) fn highest(run: &TransientRun) -> f64 {
     TAU * FLAT / run.step()
 }
 
-/// The lines of a record next to the modes that it shows; none on a base that moves.
+/// The lines of a record next to the modes that it shows.
 pub(super) fn lines(run: &TransientRun, modes: &Modes) -> Vec<Line> {
-    if run.channels().iter().any(|channel| channel.quantity == Quantity::Base) {
-        return Vec::new();
-    }
     let weighted = Weighted::new(run);
     if run.kind != Kind::Decay && weighted.forces.is_empty() {
         return Vec::new();

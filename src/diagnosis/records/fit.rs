@@ -42,18 +42,33 @@ impl FitProblem<'_> {
     }
 
     /// The same in at most `rounds` of `steps` steps, in each of which all but the laws is differentiated once ([`Held`]).
-    pub(super) fn begin(
+    pub(super) fn begin(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
+        self.begin_beside(start, rounds, &mut None)
+    }
+
+    /// The same with what is `held` from a start at the same place in the first round, where there is that; what is held of the last
+    /// round is left there.
+    pub(super) fn begin_beside(
         &self,
         start: &FittedRecords,
         [rounds, steps]: [usize; 2],
+        held: &mut Option<Held>,
     ) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let mut best = start.clone();
         for round in 0..rounds {
-            let Some((held, normal)) = Held::new(self, &best, &scales, unit)? else {
-                return self.improve(&best, rounds * steps);
+            let normal = match held {
+                Some(held) if round == 0 => held.normal(self, &best, &scales, unit)?,
+                _ => match Held::new(self, &best, &scales, unit)? {
+                    Some((own, normal)) => {
+                        *held = Some(own);
+                        normal
+                    }
+                    None => return self.improve(&best, rounds * steps),
+                },
             };
+            let Some(held) = held else { break };
             let renewed = |at: &FittedRecords| held.normal(self, at, &scales, unit);
             let ended;
             let equations;

@@ -7,11 +7,12 @@
 //!
 //! The laws, which are what a search varies, are differentiated anew at every step, a few parameters each; all else, ten times
 //! as many, moves a record nearly as it did at the beginning. A step then costs a fifth of a full one; where it begins anew
-//! from what it has come to, the fit ends where one with full steps does.
+//! from what it has come to, the fit ends where one with full steps does. What is held knows nothing of the laws, so that first fits of
+//! several laws at one place may share it.
 
 use super::data::RecordError;
 use super::fitted::FittedRecords;
-use super::normal::{Normal, RecordDerivatives, RecordPart};
+use super::normal::{Normal, Products, RecordDerivatives, RecordPart};
 use super::problem::FitProblem;
 use crate::response::transient::TransientParameter;
 use dashpot_numerics::dot;
@@ -19,11 +20,18 @@ use dashpot_numerics::dot;
 /// Most numbers of derivatives that are held: 160 MB.
 const MOST: usize = 20_000_000;
 
-/// Derivatives of all records at the beginning of a fit, with their products.
+/// Derivatives of all records by all but the laws, with their products.
 pub(super) struct Held {
-    records: Vec<(RecordDerivatives, RecordPart)>,
-    /// Number of the variables of the laws.
-    laws: usize,
+    records: Vec<HeldRecord>,
+}
+
+/// Those of one record.
+struct HeldRecord {
+    /// Number of the derivative, of the variable behind those of the laws, and the factor between them.
+    unknowns: Vec<(usize, usize, f64)>,
+    /// Of each channel: numbers of derivatives with their samples, over the noise.
+    channels: Vec<Vec<(usize, Vec<f64>)>>,
+    products: Products,
 }
 
 impl Held {
@@ -38,18 +46,18 @@ impl Held {
         if samples * (problem.shared(at) + problem.local()) > MOST {
             return Ok(None);
         }
+        let laws = problem.first_correction(at);
         let made = problem.control.map(problem.records.list.len(), |r| -> Result<_, RecordError> {
             let derivatives = problem.derivatives(at, scales, r)?;
             let part = derivatives.products(1.0);
-            Ok((derivatives, part))
+            Ok((HeldRecord::new(derivatives, &part.products, laws), part))
         });
-        let records: Vec<(RecordDerivatives, RecordPart)> = made.into_iter().collect::<Result<_, _>>()?;
-        let parts = records.iter().map(|(_, part)| part.clone()).collect();
-        let normal = problem.assembled(at, unit, parts);
-        Ok(Some((Self { records, laws: problem.first_correction(at) }, normal)))
+        let made: Vec<(HeldRecord, RecordPart)> = made.into_iter().collect::<Result<_, _>>()?;
+        let (records, parts) = made.into_iter().unzip();
+        Ok(Some((Self { records }, problem.assembled(at, unit, parts))))
     }
 
-    /// The equations at another point, only the laws differentiated there.
+    /// The equations at another point, also one with other laws, only the laws differentiated there.
     pub(super) fn normal(
         &self,
         problem: &FitProblem,
@@ -57,8 +65,26 @@ impl Held {
         scales: &[Vec<f64>],
         unit: f64,
     ) -> Result<Normal, RecordError> {
-        let parts = problem.control.map(self.records.len(), |r| self.renewed(problem, at, scales, r));
+        let parts = problem.control.map(self.records.len(), |r| self.records[r].renewed(problem, at, scales, r));
         Ok(problem.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
+    }
+}
+
+impl HeldRecord {
+    /// Without what belongs to the first `laws` variables.
+    fn new(derivatives: RecordDerivatives, products: &Products, laws: usize) -> Self {
+        let RecordDerivatives { unknowns, channels, .. } = derivatives;
+        // The derivatives by the laws come first, one a variable.
+        let own = unknowns.iter().filter(|(_, k, _)| *k < laws).count();
+        let others = unknowns.into_iter().filter(|(_, k, _)| *k >= laws);
+        let held = |columns: Vec<(usize, Vec<f64>)>| {
+            columns.into_iter().filter(|(p, _)| *p >= own).map(|(p, list)| (p - own, list)).collect()
+        };
+        Self {
+            unknowns: others.map(|(p, k, slope)| (p - own, k - laws, slope)).collect(),
+            channels: channels.into_iter().map(held).collect(),
+            products: products.without(own),
+        }
     }
 
     /// Products of record `r` with the laws differentiated at `at`.
@@ -69,30 +95,29 @@ impl Held {
         scales: &[Vec<f64>],
         r: usize,
     ) -> Result<RecordPart, RecordError> {
-        let (held, before) = &self.records[r];
+        let first = problem.first_correction(at);
         let all = problem.unknowns(at, scales, r);
-        let own: Vec<(TransientParameter, usize, f64)> = all.into_iter().filter(|(_, k, _)| *k < self.laws).collect();
+        let own: Vec<(TransientParameter, usize, f64)> = all.into_iter().filter(|(_, k, _)| *k < first).collect();
         let parameters: Vec<TransientParameter> = own.iter().map(|(p, ..)| *p).collect();
         let (left, mut columns) = problem.responses(at, r, &parameters)?;
-        let mut part = RecordPart { left, ..before.clone() };
-        part.square = part.left.iter().flatten().map(|e| e * e).sum();
-        // The derivatives by the laws come first, one a variable.
         let laws = own.len();
-        part.unknowns.iter_mut().zip(&own).for_each(|(unknown, (_, k, slope))| *unknown = (unknown.0, *k, *slope));
-        part.products.clear(laws);
-        for (c, (channel, e)) in held.channels.iter().zip(&part.left).enumerate() {
+        let mut products = self.products.behind(laws);
+        for (c, (channel, e)) in self.channels.iter().zip(&left).enumerate() {
             let law: Vec<Vec<f64>> = columns.iter_mut().map(|list| std::mem::take(&mut list[c])).collect();
             for (a, own) in law.iter().enumerate() {
-                part.products.add_against(a, dot(own, e));
+                products.add_against(a, dot(own, e));
                 for (b, other) in law.iter().enumerate().take(a + 1) {
-                    part.products.add_product(a, b, dot(own, other));
+                    products.add_product(a, b, dot(own, other));
                 }
             }
-            for (b, other) in channel.iter().filter(|(b, _)| *b >= laws) {
-                part.products.add_against(*b, dot(other, e));
-                law.iter().enumerate().for_each(|(a, own)| part.products.add_product(a, *b, dot(own, other)));
+            for (b, other) in channel {
+                products.add_against(laws + b, dot(other, e));
+                law.iter().enumerate().for_each(|(a, own)| products.add_product(a, laws + b, dot(own, other)));
             }
         }
-        Ok(part)
+        let of_laws = own.iter().enumerate().map(|(p, (_, k, slope))| (p, *k, *slope));
+        let others = self.unknowns.iter().map(|(p, k, slope)| (laws + p, first + k, *slope));
+        let square = left.iter().flatten().map(|e| e * e).sum();
+        Ok(RecordPart { unknowns: of_laws.chain(others).collect(), products, square, left })
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod data;
 pub(crate) mod diagnose;
 mod errors;
 mod evidence;
+mod first_fits;
 mod fit;
 mod fit_motion;
 mod fitted;

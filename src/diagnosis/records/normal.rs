@@ -226,14 +226,22 @@ impl Products {
         Self { count, matrix: vec![0.0; count * count], against: vec![0.0; count] }
     }
 
-    /// Forgets what stands against what is left, and all products of the first `laws` columns.
-    pub(super) fn clear(&mut self, laws: usize) {
-        self.against.fill(0.0);
-        for a in 0..laws {
-            for b in 0..self.count {
-                (self.matrix[a * self.count + b], self.matrix[b * self.count + a]) = (0.0, 0.0);
-            }
+    /// Those of the columns behind the first `laws` with each other; nothing stands against what is left.
+    pub(super) fn without(&self, laws: usize) -> Self {
+        let mut others = Self::new(self.count - laws);
+        for (row, all) in others.matrix.chunks_exact_mut((self.count - laws).max(1)).zip(laws..) {
+            row.copy_from_slice(&self.matrix[all * self.count + laws..(all + 1) * self.count]);
         }
+        others
+    }
+
+    /// The same behind `laws` columns of which nothing is known yet.
+    pub(super) fn behind(&self, laws: usize) -> Self {
+        let mut all = Self::new(laws + self.count);
+        for (row, k) in self.matrix.chunks_exact(self.count.max(1)).zip(laws..) {
+            all.matrix[k * all.count + laws..(k + 1) * all.count].copy_from_slice(row);
+        }
+        all
     }
 
     /// Adds a product of column `a` with what is left.

@@ -16,7 +16,7 @@ const LEAST_SHARE: f64 = 0.25;
 const GROWTH: f64 = 3.0;
 const GROWTH_DRIVEN: f64 = 9.0;
 /// Periods of the dominant motion from which on such a record is long.
-const LONG: f64 = 400.0;
+const LONG: f64 = 150.0;
 /// Most parts of a record and of all records; more records than that have one part each.
 const MOST: usize = 5;
 const MOST_OF_ALL: usize = 8;

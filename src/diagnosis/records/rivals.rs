@@ -4,15 +4,19 @@ use super::fitted::FittedRecords;
 use crate::effects::{Effect, Source};
 use std::sync::{Mutex, PoisonError};
 
-/// Most rivals whose last law is of the kin of that of a better one at the same place: laws of one kin share their limits and bend to the same
-/// data, so that many of them say no more than two.
+/// Most rivals whose last law is of the kin of that of a better one at the same place, or that law at another place: laws of one kin share
+/// their limits and bend to the same data, neighbouring places see the same motion, so that many of them say no more than two.
 const MOST_KIN: usize = 2;
 
-/// The first `count` of some fits, best first; of laws of one kin at a place the first [`MOST_KIN`] only, as long as there are others.
+/// The first `count` of some fits, best first; of laws of one kin at a place, and of one law, the first [`MOST_KIN`] only, as long as there
+/// are others.
 pub(super) fn unlike(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
     let mut taken: Vec<usize> = Vec::new();
     for (k, rival) in rivals.iter().enumerate() {
-        if taken.iter().filter(|&&t| is_kin(&rivals[t], rival)).count() < MOST_KIN && taken.len() < count {
+        let beside = |alike: fn(&FittedRecords, &FittedRecords) -> bool| {
+            taken.iter().filter(|&&t| alike(&rivals[t], rival)).count() < MOST_KIN
+        };
+        if beside(is_kin) && beside(is_same_law) && taken.len() < count {
             taken.push(k);
         }
     }
@@ -20,6 +24,12 @@ pub(super) fn unlike(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecord
     taken.extend(others.into_iter().take(count - taken.len().min(count)));
     taken.sort_unstable();
     taken.into_iter().map(|k| rivals[k].clone()).collect()
+}
+
+/// Whether the last laws of two fits are the same, wherever they act.
+fn is_same_law(one: &FittedRecords, other: &FittedRecords) -> bool {
+    let law = |fit: &FittedRecords| fit.effects.last().map(|e| e.effect);
+    law(one) == law(other)
 }
 
 /// Whether the last laws of two fits, at the same place, are the same, or one has all limits of the other.
@@ -77,6 +87,10 @@ mod tests {
         let carried = laws(unlike(&rivals, 4));
         assert_eq!(carried.len(), 4);
         assert!(carried.contains(&Effect::Power), "{carried:?}");
+        let mut rivals: Vec<FittedRecords> = (0..4).map(|_| fit(Effect::Coulomb, 1.0)).collect();
+        (0..).zip(&mut rivals).for_each(|(dof, rival)| rival.effects[0].place = Place::Dofs(vec![dof]));
+        rivals.push(fit(Effect::Power, 2.0));
+        assert!(laws(unlike(&rivals, 3)).contains(&Effect::Power));
         // Where there is nothing else all of one kin are.
         rivals.pop();
         assert_eq!(laws(unlike(&rivals, 4)).len(), 4);

@@ -233,23 +233,24 @@ impl Thinned {
 }
 
 impl Search<'_> {
-    /// Starts of a fit with one law more: those at places that promise the best evidence beside `fit`, its variables moved with them.
+    /// Starts of a fit with one law more: those at places that promise the best evidence beside `fit`, its variables moved with them; and
+    /// the largest drop of the squared residual that any law promises, without bound where none can be weighed.
     pub(super) fn scored(
         &self,
         level: usize,
         fit: &FittedRecords,
         places: &[Place],
         laws: &[Effect],
-    ) -> Vec<FittedRecords> {
+    ) -> (Vec<FittedRecords>, f64) {
         if self.control.is_late() {
-            return Vec::new();
+            return (Vec::new(), 0.0);
         }
         let records = &self.levels[level];
         let mut free = Free::all(records);
         free.shifts = level + 1 == self.levels.len();
         let alone = self.control.alone();
         let problem = FitProblem { records, free, share: 1.0, control: &alone };
-        let Ok(test) = ScoreTest::new(&problem, fit) else { return Vec::new() };
+        let Ok(test) = ScoreTest::new(&problem, fit) else { return (Vec::new(), f64::INFINITY) };
         let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
         let at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {
             self.control.map(places.len(), |k| test.at(&places[k], laws)).into_iter().flatten().filter(open).collect()
@@ -266,11 +267,12 @@ impl Search<'_> {
             evidence(&FittedRecords { effects, chi_square: fit.chi_square - s.gain, ..bare.clone() }, unit)
         };
         let none = evidence(&bare, unit);
+        let most = all.iter().map(|s| s.gain).fold(0.0, f64::max);
         all.retain(|s| worth(s) < none);
         all.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
         let scales = scales(&fit.effects);
         let chosen = diverse(all);
-        self.control.map(chosen.len(), |k| begun(&problem, fit, &scales, &chosen[k]))
+        (self.control.map(chosen.len(), |k| begun(&problem, fit, &scales, &chosen[k])), most)
     }
 }
 

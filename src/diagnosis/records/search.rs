@@ -18,14 +18,16 @@ use crate::effects::{Family, Place, Source};
 use crate::structure::{Part, Structure};
 use std::sync::OnceLock;
 
-/// Rounds and steps in each of the first fits, of the fits of those that are followed, and how many are; steps of a correction.
-const BEGINNING: [usize; 2] = [1, 3];
+/// Rounds and steps in each of the fits of those that are followed, and how many are; steps of a correction.
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
 const CORRECTING: [usize; 2] = [3, 4];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
 /// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
+/// Share of what is left that the best further law must take away to first order to be looked for: one that is kept takes away more than a
+/// quarter of it ([`super::diagnose`]), of which a first order may miss a third.
+const PROMISED: f64 = 0.18;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
 /// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
@@ -220,22 +222,20 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() && level == 0 { bare } else { best };
+        let (scored, gain) = self.scored(level, best, &self.all_places(), &LAWS);
+        let several = self.records.kept > FEW_MODES && !best.effects.is_empty();
+        if several && gain < PROMISED * best.chi_square {
+            return Ok(Vec::new());
+        }
         let mut starts = self.begun(level, best, base);
-        let scored = self.scored(level, best, &self.all_places(), &LAWS);
         starts.truncate(FURTHER[usize::from(level > 0)]);
         starts.splice(0..0, scored);
         starts.retain(|s| s.effects.split_last().is_none_or(|(new, others)| !self.repeats(others, new)));
         let alone = self.control.alone();
         let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
-        // A start that runs away, or a mass that takes away all there is, is no start. Where a frequency follows the amplitude the
-        // phase of a decay is lost within a part.
-        let begin = |start: &FittedRecords| {
-            let first = if free { self.fit_first_periods(level, start, BEGINNING).ok() } else { None };
-            self.fit_by(level, first.as_ref().unwrap_or(start), (1.0, BEGINNING), &alone).ok()
-        };
         let mut found: Vec<FittedRecords> = Vec::new();
-        add_begun(&mut found, self.control.map(starts.len(), |k| begin(&starts[k])));
+        add_begun(&mut found, self.first_fits(level, &starts, free));
         self.control.check()?;
         keep(&mut found, FOLLOWED, HOPELESS[0]);
         let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
@@ -315,18 +315,26 @@ impl Search<'_> {
         level: usize,
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordError> {
-        let mut starts = self.begun_wider(level, &found)?;
-        starts.extend(self.begun_plainer(level, &found));
-        starts.retain(|s| !self.given_up.holds(&s.effects));
-        if !starts.is_empty() {
+        let wider = self.begun_wider(level, &found)?;
+        let mut starts = [wider, self.begun_plainer(level, &found)].concat();
+        // What is wider may have come further than the plainer law that it is all but.
+        for _ in 0..2 {
+            starts.retain(|s| !self.given_up.holds(&s.effects));
+            if starts.is_empty() {
+                break;
+            }
             found = self.with_begun(level, found, &starts)?;
+            starts = self.begun_plainer(level, &found);
         }
         let elsewhere = self.begun_elsewhere(level, &found)?;
-        if elsewhere.is_empty() { Ok(found) } else { self.with_begun(level, found, &elsewhere) }
+        if !elsewhere.is_empty() {
+            found = self.with_begun(level, found, &elsewhere)?;
+        }
+        self.moved_along(level, found)
     }
 
     /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is given up.
-    fn with_begun(
+    pub(super) fn with_begun(
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
@@ -337,7 +345,7 @@ impl Search<'_> {
             self.control.map(list.len(), |k| self.fit_by(level, &list[k], (1.0, rounds), &alone).ok())
         };
         let mut begun = Vec::new();
-        add_begun(&mut begun, fits(starts, BEGINNING));
+        add_begun(&mut begun, self.first_fits(level, starts, false));
         begun.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         let others = begun.split_off(begun.len().min(FOLLOWED_BESIDE));
         add_begun(&mut found, fits(&begun, FOLLOWING));

@@ -10,6 +10,7 @@
 use super::data::RecordError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
+use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
 use super::search::Search;
 use crate::control::Control;
@@ -59,6 +60,11 @@ impl Search<'_> {
             return Ok(Vec::new());
         };
         if best.1.chi_square > LEFT * rigid.chi_square || evidence(&rigid, unit) - evidence(&best.1, unit) < GAIN {
+            return Ok(Vec::new());
+        }
+        // A joint that sticks or slips changes frequencies too: a law that promises to leave less is looked for on rigid supports.
+        let (_, promised) = self.scored(0, &rigid, &self.all_places(), &LAWS);
+        if rigid.chi_square - promised < best.1.chi_square {
             return Ok(Vec::new());
         }
         let (factor, deviation) = self.refined(&base, &groups[g], best, &alone);

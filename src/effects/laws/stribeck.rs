@@ -7,7 +7,7 @@
 use crate::effects::description::Description;
 use crate::effects::effect::Effect;
 use crate::effects::law::{Point, Variable};
-use crate::effects::limits::{Limit, alike};
+use crate::effects::limits::{CLOSE, Limit, alike};
 use crate::effects::memoryless::{MemorylessLaw, sign};
 use crate::effects::motion::Motion;
 use crate::effects::parameter::Parameter;
@@ -27,7 +27,11 @@ const DESCRIPTION: Description = Description {
         let velocities = geometric(0.02 * range.velocity, 0.8 * range.velocity, 5);
         velocities.into_iter().flat_map(|v| [1.3, 2.0, 4.0].map(|s| vec![1.0, s, v])).collect()
     },
-    limits: &[Limit { law: Effect::Coulomb, holds: |p, _| alike(p[1], p[0]), parameters: |p| vec![p[0]] }],
+    // Friction that would fall at speeds far beyond those that were reached has not begun to.
+    limits: &[
+        Limit { law: Effect::Coulomb, holds: |p, _| alike(p[1], p[0]), parameters: |p| vec![p[0]] },
+        Limit { law: Effect::Coulomb, holds: |p, range| p[2] > range.velocity / CLOSE, parameters: |p| vec![p[1]] },
+    ],
     // What a series of few harmonics leaves of a jump looks like friction that rises from rest.
     disguised: |p| p[1] <= p[0],
     symbol: &[Mark::Pads(-0.5, 0.5, Tone::Faint), Mark::Line(&[(-0.3, -9.0), (0.0, -7.0), (0.3, -9.0)])],

@@ -59,6 +59,7 @@ impl Plan {
             let (file, channel) = (run.file.clone(), channel.to_string());
             self.run_error(index, "file", Problem::RidesOnBase { file, channel })
         };
+        run.on_moving_base = true;
         run.record = Arc::new(driven_in_time(&run.record, &bases, is_absolute).map_err(rides)?);
         Ok(run)
     }
