@@ -6,16 +6,17 @@
 //! beta_i = work of (f_i - sum_{l != i} (k_il x_l + m_il x_l'')) at x_i'
 //! ```
 //!
-//! rows are DOFs x runs, plain least squares. **Needs** mass and stiffness and the motion of all DOFs under steady periodic
-//! forces, and a pattern of sources. (Liang asks for a diagonal mass matrix; its other entries are no obstacle and are
+//! rows are DOFs x periods, plain least squares. A period is that of a run, or of one line of frequency responses under a unit force.
+//! **Needs** mass and stiffness and the motion of all DOFs under steady periodic forces, and a pattern of sources. (Liang asks for a diagonal mass matrix; its other entries are no obstacle and are
 //! taken along.) **Limits**: energy that DOFs pass to each other is far larger than what is lost, so small errors
 //! of stiffness or phase ruin single rows; only their sum over all DOFs, the energy balance of the whole, is robust.
 
-use super::data::Damping;
+use super::data::{Damping, LoadCase};
 use super::error::ClassicalError;
 use crate::balance::action::{self, Field};
 use crate::balance::{Expanded, Measured};
 use crate::effects::Source;
+use crate::math::fill::filled_complex;
 use crate::math::least_squares::LeastSquares;
 use crate::structure::Structure;
 use faer::{Mat, c64};
@@ -33,14 +34,56 @@ pub struct Balanced {
     pub damping: Damping,
 }
 
+/// One period of a steady motion of all DOFs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Period {
+    /// Fundamental circular frequency, rad/s.
+    omega: f64,
+    /// Number of each harmonic.
+    numbers: Vec<usize>,
+    /// Displacement, n x harmonics, m.
+    x: Mat<c64>,
+    /// Force of the exciters, n x harmonics, N.
+    force: Mat<c64>,
+}
+
+impl Period {
+    /// That of a run with its motion at all DOFs.
+    ///
+    /// # Errors
+    /// [`ClassicalError::Missing`] where the motion of a DOF is not known.
+    pub fn of_run(measured: &Measured, expanded: &Expanded) -> Result<Self, ClassicalError> {
+        if expanded.known.iter().any(|known| !known) {
+            return Err(ClassicalError::Missing { what: "the motion of every DOF in every run".to_string() });
+        }
+        let mut force = Mat::zeros(expanded.x.nrows(), measured.harmonics());
+        for (s, &dof) in measured.forces.dofs.iter().enumerate() {
+            for k in 0..measured.harmonics() {
+                force[(dof, k)] += measured.forces.values[(s, k)];
+            }
+        }
+        Ok(Self { omega: measured.omega, numbers: measured.numbers.clone(), x: expanded.x.clone(), force })
+    }
+
+    /// That of a harmonic load.
+    pub fn of_load(load: &LoadCase) -> Self {
+        let column = |values: &[c64]| filled_complex(values.len(), 1, |i, _| values[i]);
+        Self { omega: load.omega, numbers: vec![1], x: column(&load.displacement), force: column(&load.force) }
+    }
+
+    fn field(&self) -> Field<'_> {
+        Field { omega: self.omega, numbers: &self.numbers, x: &self.x }
+    }
+}
+
 /// Coefficients of `columns` (taken at unit coefficient) from the work at every DOF, less that of the `known` sources at
 /// their values; these are in the matrix too.
 ///
 /// # Errors
-/// [`ClassicalError::Missing`] without matrices, columns, or the motion of every DOF; those of the linear algebra.
+/// [`ClassicalError::Missing`] without matrices, columns or periods; those of the linear algebra.
 pub fn liang(
     structure: &Structure,
-    runs: &[(Measured, Expanded)],
+    periods: &[Period],
     columns: &[Source],
     known: &[Source],
 ) -> Result<Balanced, ClassicalError> {
@@ -51,22 +94,22 @@ pub fn liang(
     if columns.is_empty() {
         return missing("candidate sources: the pattern whose coefficients are sought");
     }
-    if runs.is_empty() || runs.iter().any(|(_, expanded)| expanded.known.iter().any(|k| !k)) {
-        return missing("the motion of every DOF in every run");
+    if periods.is_empty() {
+        return missing("steady motion of every DOF");
     }
     let n = structure.len();
     let units: Vec<Source> = columns.iter().map(|source| source.with_coefficient(1.0)).collect();
-    let mut rows = Mat::zeros(n * runs.len(), columns.len());
-    let mut right: Vec<f64> = Vec::with_capacity(n * runs.len());
-    for (r, (measured, expanded)) in runs.iter().enumerate() {
-        let field = expanded.field(measured);
+    let mut rows = Mat::zeros(n * periods.len(), columns.len());
+    let mut right: Vec<f64> = Vec::with_capacity(n * periods.len());
+    for (r, period) in periods.iter().enumerate() {
+        let field = period.field();
         for (j, source) in units.iter().enumerate() {
             for (dof, force) in action::force(source, structure, field) {
                 rows[(n * r + dof, j)] += work(field, dof, &force);
             }
         }
         let first = right.len();
-        right.extend(remaining(structure, measured, field));
+        right.extend(remaining(structure, period));
         for source in known {
             for (dof, force) in action::force(source, structure, field) {
                 right[first + dof] -= work(field, dof, &force);
@@ -94,29 +137,20 @@ fn work(field: Field<'_>, dof: usize, force: &[c64]) -> f64 {
     PI * (0..force.len()).map(term).sum::<f64>()
 }
 
-/// `beta_i` of one run.
-fn remaining(structure: &Structure, measured: &Measured, field: Field<'_>) -> Vec<f64> {
+/// `beta_i` of one period.
+fn remaining(structure: &Structure, period: &Period) -> Vec<f64> {
     let Some(matrices) = structure.matrices() else { return Vec::new() };
-    let n = structure.len();
-    (0..n)
-        .map(|i| {
-            let force: Vec<c64> = (0..measured.harmonics())
-                .map(|k| {
-                    let square = measured.frequency(k).powi(2);
-                    let applied = (0..measured.forces.len())
-                        .filter(|&s| measured.forces.dofs[s] == i)
-                        .map(|s| measured.forces.values[(s, k)])
-                        .sum::<c64>();
-                    let exchanged = (0..n)
-                        .filter(|&l| l != i)
-                        .map(|l| field.x[(l, k)] * (matrices.stiffness[(i, l)] - square * matrices.mass[(i, l)]))
-                        .sum::<c64>();
-                    applied - exchanged
-                })
-                .collect();
-            work(field, i, &force)
-        })
-        .collect()
+    let (n, field) = (structure.len(), period.field());
+    let force = |i: usize, k: usize| {
+        let square = (period.numbers[k] as f64 * period.omega).powi(2);
+        let exchanged = (0..n)
+            .filter(|&l| l != i)
+            .map(|l| field.x[(l, k)] * (matrices.stiffness[(i, l)] - square * matrices.mass[(i, l)]))
+            .sum::<c64>();
+        period.force[(i, k)] - exchanged
+    };
+    let harmonics = 0..period.numbers.len();
+    (0..n).map(|i| work(field, i, &harmonics.clone().map(|k| force(i, k)).collect::<Vec<c64>>())).collect()
 }
 
 /// `sum c_j L_j L_j^T` of the viscous sources.

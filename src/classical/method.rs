@@ -104,7 +104,7 @@ impl Method {
             Self::Liang => [
                 "Liang",
                 "mass, stiffness, the motion of every DOF, a pattern",
-                "only lines that are runs; small errors of phase ruin single rows",
+                "small errors of phase ruin single rows",
             ],
             Self::PhaniWoodhouse => {
                 ["Phani and Woodhouse", "the full receptance matrix, real modes", "first term of a series"]

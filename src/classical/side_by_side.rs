@@ -4,6 +4,7 @@ use super::data::{Damping, ModalData, ReceptanceData};
 use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
 use super::incompleteness::known_damping;
+use super::liang::Period;
 use super::method::Method;
 use super::poly_reference::{Extraction, extract};
 use super::reference_shapes::{Beside, ReferenceShape, beside};
@@ -303,7 +304,7 @@ impl Data<'_> {
         Ok(Applied { damping: Some(damping), ratios: Vec::new(), eps_p: Some(eps_p), errors: None })
     }
 
-    /// The motion of all DOFs by the model, and the candidates as the pattern.
+    /// The motion of all DOFs as measured, and the candidates as the pattern.
     fn liang(&self) -> Result<Damping, ClassicalError> {
         let columns: Vec<Source> = self
             .sources
@@ -316,16 +317,24 @@ impl Data<'_> {
         if !complete {
             return missing("a sensor at every DOF: an expanded motion passes no energy between DOFs");
         }
+        let known: Vec<Source> = self.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
+        Ok(super::liang::liang(self.structure, &self.periods()?, &columns, &known)?.damping)
+    }
+
+    /// Steady motions of all DOFs: every line of frequency responses under every force, and the runs that are not lines of them.
+    fn periods(&self) -> Result<Vec<Period>, ClassicalError> {
         let wrong = |error: crate::balance::BalanceError| ClassicalError::Missing { what: error.to_string() };
         let expander = Expander::new(self.structure, Expansion::None, &[]).map_err(wrong)?;
-        let mut runs = Vec::new();
-        for run in self.runs.iter().filter(|run| run.enabled) {
+        let (lines, others): (Vec<&Run>, Vec<&Run>) =
+            self.runs.iter().filter(|run| run.enabled).partition(|run| run.functions.is_some());
+        let loads = if lines.is_empty() { Vec::new() } else { self.loads()? };
+        let mut periods: Vec<Period> = loads.iter().map(Period::of_load).collect();
+        for run in others {
             let measured = Measured::new(run).map_err(wrong)?;
             let motion = expander.expand(&measured, Acting::NOTHING).map_err(wrong)?;
-            runs.push((measured, motion));
+            periods.push(Period::of_run(&measured, &motion)?);
         }
-        let known: Vec<Source> = self.sources.iter().filter(|s| s.state == State::Known).cloned().collect();
-        Ok(super::liang::liang(self.structure, &runs, &columns, &known)?.damping)
+        Ok(periods)
     }
 
     fn phani_woodhouse(&self) -> Result<Damping, ClassicalError> {

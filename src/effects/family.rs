@@ -4,7 +4,7 @@ use super::effect::Effect;
 use super::kind::Kind;
 use super::place::Place;
 use super::source::Source;
-use crate::structure::{Direction, Structure};
+use crate::structure::Structure;
 use serde::{Deserialize, Serialize};
 
 /// Where a family of candidates of one law is looked for: `where` of `[[candidates]]`.
@@ -44,10 +44,7 @@ impl Family {
     pub fn places(self, structure: &Structure) -> Vec<Place> {
         let rows = tracks(structure);
         let dofs: Vec<Vec<usize>> = match self {
-            Self::EachDof => {
-                let is_place = |dof: &usize| structure.dofs()[*dof].direction != Direction::Q;
-                (0..structure.len()).filter(is_place).map(|dof| vec![dof]).collect()
-            }
+            Self::EachDof => structure.in_space().into_iter().map(|dof| vec![dof]).collect(),
             Self::EachTranslation => {
                 let mut all: Vec<usize> = rows.concat();
                 all.sort_unstable();
@@ -93,7 +90,7 @@ fn tracks(structure: &Structure) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::{Dof, Node, Origin, StructureKind};
+    use crate::structure::{Direction, Dof, Node, Origin, StructureKind};
 
     fn structure(directions: &[Direction]) -> Structure {
         let dof = |(row, &direction): (usize, &Direction)| Dof { label: (row + 1).to_string(), node: row, direction };

@@ -43,8 +43,8 @@ pub(super) fn without_negligible(
     Some((smaller, reason))
 }
 
-/// Puts the best set of a size first that the rule of `keep` forbids, where the best of the next size is that set and a source of
-/// next to no energy: such a source is there for the rule alone, which asks for one of the columns that are best by themselves.
+/// Puts the best set of a size first that the rule of `keep` forbids, where the best of a larger size is that set and sources of
+/// next to no energy: such sources are there for the rule alone, which asks for one of the columns that are best by themselves.
 pub(super) fn lift_the_rule(problem: &Problem<'_>, state: &IdentificationState, rankings: &mut [SizeRanking]) {
     if !problem.is_noisy() {
         return;
@@ -52,13 +52,12 @@ pub(super) fn lift_the_rule(problem: &Problem<'_>, state: &IdentificationState, 
     let energy = System::energy(problem, state, Weights::None);
     for k in 1..rankings.len() {
         let (smaller, larger) = rankings.split_at_mut(k);
-        let (ranking, next) = (&mut smaller[k - 1], larger[0].best());
-        let is_rest = |set: &RankedSet| {
-            let extra = |j: &usize| !set.columns.contains(j);
-            set.columns.iter().all(|j| next.columns.contains(j))
-                && next.columns.iter().filter(|j| extra(j)).all(|j| largest_share(&energy, next, *j) < LEAST_SHARE)
-        };
-        if next.columns.len() == ranking.best().columns.len() + 1 && ranking.best_of_all.as_ref().is_some_and(is_rest) {
+        let next = larger[0].best();
+        let carries = |j: &usize| largest_share(&energy, next, *j) >= LEAST_SHARE;
+        let kept: Vec<usize> = next.columns.iter().copied().filter(carries).collect();
+        let forbidden =
+            |ranking: &&mut SizeRanking| ranking.best_of_all.as_ref().is_some_and(|set| set.columns == kept);
+        if let Some(ranking) = smaller.iter_mut().find(forbidden) {
             ranking.sets.splice(0..0, ranking.best_of_all.take());
         }
     }

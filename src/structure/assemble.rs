@@ -1,7 +1,7 @@
 //! The last steps that every kind of structure shares: lumped masses and the checks that make a [`Structure`] valid.
 
 use super::error::{StructureError, nearest, positive};
-use super::geometry::{Dof, Node};
+use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::system::{Element, Origin, Structure, StructureKind, SystemMatrices};
 use crate::math::eigen;
@@ -142,6 +142,11 @@ impl Structure {
     /// Rows of the translations, in order.
     pub fn translations(&self) -> Vec<usize> {
         (0..self.len()).filter(|&i| !self.dofs[i].direction.is_rotation()).collect()
+    }
+
+    /// Rows in space, at which something can act: all but generalised coordinates.
+    pub fn in_space(&self) -> Vec<usize> {
+        (0..self.len()).filter(|&i| self.dofs[i].direction != Direction::Q).collect()
     }
 
     /// Every pair of neighbouring translations: consecutive nodes of a beam, consecutive masses, equal directions of

@@ -7,10 +7,13 @@ use dashpot::classical::method::Method;
 use dashpot::classical::side_by_side::{Applied, SideBySide, side_by_side};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source, State};
-use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, MeasuredRatio, Quantity, Run};
+use dashpot::measurement::{
+    Channel, ChannelFit, HarmonicFit, MeasuredRatio, Quantity, Run, WholeFunction, WholeFunctions,
+};
 use dashpot::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 fn channel(structure: &Structure, quantity: Quantity, dof: usize, amplitude: c64) -> ChannelFit {
     ChannelFit {
@@ -167,4 +170,28 @@ fn measured_ratios_know_their_deviation() {
             assert!(r.deviation < 0.2 * known, "mode {}: {r:?} {known}", p + 1);
         }
     }
+}
+
+/// Of frequency responses all lines count, not only those few that are runs: one line under one force does not fix nine dashpots.
+#[test]
+fn liang_works_on_whole_responses() {
+    let structure = five_masses();
+    let all = FrequencyResponses::from_runs(&sweep(&structure)).unwrap();
+    let pairs = (0..5).flat_map(|j| (0..5).map(move |i| (i, j)));
+    let function = |(response, reference)| WholeFunction {
+        response,
+        reference,
+        receptance: all.series(response, reference),
+        deviation: vec![1e-12; all.omega.len()],
+    };
+    let whole = Arc::new(WholeFunctions { omega: all.omega.clone(), functions: pairs.map(function).collect() });
+    let liang = |functions: Option<Arc<WholeFunctions>>| {
+        let line = Run { functions, ..sweep(&structure).swap_remove(40) };
+        let found = side_by_side(&structure, &sources(), &[line], &[], &Control::unattended()).unwrap();
+        of(&found, Method::Liang).unwrap().clone()
+    };
+    assert!(liang(None).errors.unwrap().eps_c > 1.0);
+    let found = liang(Some(whole));
+    assert!(found.errors.unwrap().eps_c < 1e-4, "{:?}", found.errors);
+    assert!(found.damping.unwrap().notes.is_empty());
 }

@@ -2,9 +2,9 @@
 
 use super::support::*;
 use dashpot::balance::expansion::Acting;
-use dashpot::balance::{Expanded, Expander, Expansion, Measured};
+use dashpot::balance::{Expander, Expansion, Measured};
 use dashpot::classical::ClassicalError;
-use dashpot::classical::liang::liang;
+use dashpot::classical::liang::{Period, liang};
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::structure::Structure;
@@ -22,7 +22,7 @@ fn channel(structure: &Structure, quantity: Quantity, dof: usize, amplitude: c64
     }
 }
 
-fn runs(structure: &Structure, sensors: usize) -> Vec<(Measured, Expanded)> {
+fn periods(structure: &Structure, sensors: usize) -> Result<Vec<Period>, ClassicalError> {
     let lines = [21.0, 33.0, 42.0, 53.0, 65.0];
     let h = receptance(structure, &damping(), &Mat::zeros(5, 5), &lines);
     let expander = Expander::new(structure, Expansion::None, &[]).unwrap();
@@ -49,7 +49,7 @@ fn runs(structure: &Structure, sensors: usize) -> Vec<(Measured, Expanded)> {
             };
             let measured = Measured::new(&run).unwrap();
             let expanded = expander.expand(&measured, Acting::NOTHING).unwrap();
-            (measured, expanded)
+            Period::of_run(&measured, &expanded)
         })
         .collect()
 }
@@ -63,7 +63,7 @@ fn pattern() -> Vec<Source> {
 #[test]
 fn liang_is_exact_on_the_pattern_that_holds_the_truth() {
     let structure = five_masses();
-    let found = liang(&structure, &runs(&structure, 5), &pattern(), &[]).unwrap();
+    let found = liang(&structure, &periods(&structure, 5).unwrap(), &pattern(), &[]).unwrap();
     assert_exact(&found.damping.viscous, &damping());
     assert!(found.damping.notes.is_empty(), "{:?}", found.damping.notes);
 }
@@ -71,6 +71,6 @@ fn liang_is_exact_on_the_pattern_that_holds_the_truth() {
 #[test]
 fn liang_needs_every_sensor() {
     let structure = five_masses();
-    let error = liang(&structure, &runs(&structure, 4), &pattern(), &[]).unwrap_err();
+    let error = periods(&structure, 4).unwrap_err();
     assert_eq!(error, ClassicalError::Missing { what: "the motion of every DOF in every run".to_string() });
 }

@@ -7,6 +7,7 @@ mod chain;
 mod change;
 #[path = "../common/mod.rs"]
 mod common;
+mod keep;
 mod many;
 mod noise;
 mod points;

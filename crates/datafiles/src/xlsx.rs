@@ -104,12 +104,17 @@ fn value(data: &DataRef<'_>) -> Cell {
         DataRef::String(text) => word(text),
         DataRef::SharedString(text) => word(text),
         DataRef::Bool(value) => Cell::Real(f64::from(u8::from(*value))),
-        // Days since 1900; only differences matter.
-        DataRef::DateTime(date) => Cell::Clock(date.as_f64() * 86400.0),
+        DataRef::DateTime(date) => Cell::Clock(since_1970(date.as_f64()) * 86400.0),
         DataRef::DateTimeIso(text) | DataRef::DurationIso(text) => word(text),
         DataRef::Error(_) => Cell::Real(f64::NAN),
         DataRef::Empty => Cell::Empty,
     }
+}
+
+/// Days since 1970 of days since 1900; a span of time as it is.
+fn since_1970(days: f64) -> f64 {
+    // No test lasts 55 years: what is longer is a date.
+    if days < 20_000.0 { days } else { days - 25_569.0 }
 }
 
 /// Text of a cell; numbers that were stored as text count as numbers.

@@ -1,7 +1,8 @@
 //! Files of every format changed at random: one clear line or what can still be read, never a panic in this crate, bounded
 //! memory.
 //!
-//! `cargo test --release -p dashpot-datafiles --test fuzz -- --ignored hdf5` is ten million files of one reader.
+//! `cargo test --release -p dashpot-datafiles --test fuzz -- --ignored hdf5` is ten million files of one reader. It goes on with
+//! others where `FUZZ_SEED` names another seed, for as many as `FUZZ_INPUTS` says.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "tests")]
 
 mod common;
@@ -24,8 +25,13 @@ const READERS: [(&str, &[&str]); 8] = [
     ("numpy", &["npy", "npz"]),
 ];
 
-/// Ten million.
-const MANY: usize = 10_000_000;
+/// Ten million, and the seed of the first run.
+const MANY: (usize, u64) = (10_000_000, 2024);
+
+/// A whole number that the environment names.
+fn named(variable: &str) -> Option<u64> {
+    std::env::var(variable).ok()?.parse().ok()
+}
 
 /// Changes a file as damage does: bytes, bits, pieces lost, doubled or filled, lengths set to the largest.
 fn mutate(bytes: &mut Vec<u8>, random: &mut ChaCha8Rng) {
@@ -133,7 +139,8 @@ macro_rules! many {
         #[test]
         #[ignore = "ten million files"]
         fn $name() {
-            fuzz($reader, MANY, 2024);
+            let inputs = named("FUZZ_INPUTS").map_or(MANY.0, |inputs| inputs as usize);
+            fuzz($reader, inputs, named("FUZZ_SEED").unwrap_or(MANY.1));
         }
     )* };
 }

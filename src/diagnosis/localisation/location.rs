@@ -29,15 +29,20 @@ impl Spot {
         }
     }
 
-    /// Every DOF to the ground, every pair of neighbours, every channel.
+    /// Every DOF in space to the ground, every pair of neighbours, every channel.
     pub(crate) fn all(structure: &Structure, data: &Data) -> Vec<Self> {
-        let ground = (0..structure.len()).map(|first| Self::Leg(Leg { first, second: None }));
-        let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
         let [responses, forces] = data.channel_names();
-        let mut spots: Vec<Self> = ground.chain(structure.neighbours().into_iter().map(pair)).collect();
+        let mut spots = Self::on(structure);
         spots.extend(responses.into_iter().map(Self::Response));
         spots.extend(forces.into_iter().map(Self::Force));
         spots
+    }
+
+    /// Those on the structure.
+    fn on(structure: &Structure) -> Vec<Self> {
+        let ground = structure.in_space().into_iter().map(|first| Self::Leg(Leg { first, second: None }));
+        let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
+        ground.chain(structure.neighbours().into_iter().map(pair)).collect()
     }
 }
 
@@ -103,5 +108,33 @@ impl<'a> Receptances<'a> {
     pub(crate) fn channel(&self, r: usize, run: &RunData, h: usize, channel: &ChannelData, leg: Leg) -> c64 {
         let displacement = leg.relative(|i| self.entry(r, h, i, channel.dof));
         displacement * channel.from_displacement(h as f64 * run.omega)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Direction;
+    use crate::structure::imported::{ImportedDof, ImportedParameters};
+
+    /// The amplitude of a fixed-interface mode of a reduced model is no place.
+    #[test]
+    fn nothing_acts_at_generalised_coordinates() {
+        let dof =
+            |label: &str, node: &str, direction| ImportedDof { label: label.into(), node: node.into(), direction };
+        let parameters = ImportedParameters {
+            mass: Mat::identity(3, 3),
+            stiffness: Mat::from_fn(3, 3, |i, j| if i == j { 2.0 } else { -0.5 }),
+            nodes: None,
+            dofs: Some(vec![
+                dof("1z", "1", Direction::Z),
+                dof("mode1", "interior", Direction::Q),
+                dof("2z", "2", Direction::Z),
+            ]),
+            lines: Vec::new(),
+        };
+        let structure = parameters.build(&[]).unwrap();
+        let leg = |first, second| Spot::Leg(Leg { first, second });
+        assert_eq!(Spot::on(&structure), [leg(0, None), leg(2, None), leg(0, Some(2))]);
     }
 }

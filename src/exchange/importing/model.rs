@@ -92,6 +92,11 @@ pub(super) fn places(points: &[Point], model: &Model) -> Result<Vec<String>> {
                 "point {own} of the measurement has no direction, and the model no DOF of that name; name the DOFs of the \
                  functions by --responses and --references, such as --responses {own}z, or under [frf.dofs] of a --map"
             ),
+            direction if nodes.is_empty() => format!(
+                "point {} direction {direction} is not in the model by its number, and the model has no places of nodes; give its \
+                 --nodes (.inp, .bdf or a table), or name the DOFs by --responses and --references",
+                point.node
+            ),
             direction => format!(
                 "point {} direction {direction} is not in the model, neither by its number nor by its place; say it under \
                  [frf.dofs] of a --map, or name the DOFs by --responses and --references",
@@ -152,5 +157,19 @@ mod tests {
         assert_eq!(found.get("1z").map(String::as_str), Some("102"));
         assert_eq!(found.get("2z").map(String::as_str), Some("103"));
         assert!(nearest(&[point("1", 0.3)], &nodes, &labels).is_empty());
+    }
+
+    /// A model without places, as Abaqus writes its matrices, cannot know the points of a test by theirs: what is missing is said.
+    #[test]
+    fn a_model_without_places_asks_for_its_nodes() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("beam.mtx");
+        std::fs::write(&file, "101,3, 101,3, 2.0\n101,3, 102,3, -1.0\n102,3, 102,3, 1.0\n").unwrap();
+        let matrices: [&Path; 2] = [&file, &file];
+        let files = ModelFiles { matrices, names: [None, None], nodes: None, dofs: None, lines: None };
+        let model = read_model(files).unwrap();
+        let point = Point { node: "1".into(), direction: "z".into(), position: Some([0.2, 0.0, 0.0]) };
+        let told = places(&[point], &model).unwrap_err().to_string();
+        assert!(told.contains("--nodes"), "{told}");
     }
 }

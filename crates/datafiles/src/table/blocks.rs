@@ -1,6 +1,6 @@
 //! Blocks of numbers in rows that come one by one.
 
-use super::cell::Cell;
+use super::cell::{Cell, date_and_time};
 use super::header_line::HeaderLine;
 use crate::error::{Fault, Read, one_line};
 
@@ -222,7 +222,8 @@ impl Blocks {
 fn text(cell: &Cell) -> String {
     match cell {
         Cell::Empty => String::new(),
-        Cell::Real(value) | Cell::Clock(value) => value.to_string(),
+        Cell::Real(value) => value.to_string(),
+        Cell::Clock(value) => date_and_time(*value),
         Cell::Complex([re, im]) => format!("{re}{im:+}j"),
         Cell::Word(word) => word.clone(),
     }

@@ -149,6 +149,24 @@ pub(crate) fn clock(text: &str) -> Option<f64> {
         .then(|| days as f64 * 86400.0 + f64::from(hours) * 3600.0 + f64::from(minutes) * 60.0 + seconds - ahead)
 }
 
+/// Seconds since 1970 as people write them, `2024-03-01 12:00:00`; of less than a day the time alone, of midnight the date.
+pub(super) fn date_and_time(seconds: f64) -> String {
+    let (days, rest) = ((seconds / 86400.0).floor(), seconds.rem_euclid(86400.0).floor() as u32);
+    let time = format!("{:02}:{:02}:{:02}", rest / 3600, rest / 60 % 60, rest % 60);
+    if days == 0.0 || days.abs() > 1e8 || days.is_nan() {
+        return if days == 0.0 { time } else { seconds.to_string() };
+    }
+    // Richards' algorithm (Explanatory Supplement to the Astronomical Almanac, 15.11.3) from the Julian day number.
+    let f = days as i64 + 2_440_588 + 1401;
+    let f = f + (4 * (days as i64 + 2_440_588) + 274_277) / 146_097 * 3 / 4 - 38;
+    let e = 4 * f + 3;
+    let h = 5 * (e % 1461 / 4) + 2;
+    let (day, month) = (h % 153 / 5 + 1, (h / 153 + 2) % 12 + 1);
+    let year = e / 1461 - 4716 + (14 - month) / 12;
+    let date = format!("{year}-{month:02}-{day:02}");
+    if rest == 0 { date } else { format!("{date} {time}") }
+}
+
 /// A time without its zone (`+01:00`, `-0530`, `+02`), and how many seconds that is ahead of UTC.
 fn zone(time: &str) -> (&str, f64) {
     let Some(at) = time.rfind(['+', '-']).filter(|&at| at >= 5) else { return (time, 0.0) };
@@ -230,5 +248,13 @@ mod tests {
         assert_eq!(Cell::parse("02.01.1970", false), Cell::Clock(86400.0));
         assert_eq!(Cell::parse("1.2.3", false), Cell::Word("1.2.3".into()));
         assert_eq!(Cell::parse("2000-03-01T00:00:00", false), Cell::Clock(11017.0 * 86400.0));
+    }
+
+    /// Every date that can be read is written as it was, by the reader's own count of days.
+    #[test]
+    fn dates_are_written_as_they_are_read() {
+        for text in ["2024-03-01", "2000-02-29", "1970-01-02", "1999-12-31", "2024-12-31 23:59:58", "12:34:56"] {
+            assert_eq!(date_and_time(clock(text).unwrap_or_default()), text);
+        }
     }
 }

@@ -3,6 +3,7 @@
 mod headers;
 mod labels;
 mod names;
+mod own_times;
 mod points;
 mod sets;
 mod source;

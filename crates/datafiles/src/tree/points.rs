@@ -20,7 +20,8 @@ fn side_of(word: &str) -> Option<&'static str> {
         .unwrap_or(&plain);
     match stem {
         "response" | "responses" | "resp" | "rsp" | "output" | "outputs" | "out" => Some(SIDES[0]),
-        "reference" | "references" | "ref" | "excitation" | "exc" | "drive" | "driving" | "hammer" => Some(SIDES[1]),
+        "reference" | "references" | "ref" | "excitation" | "exc" | "drive" | "driving" | "hammer" | "input"
+        | "inputs" | "in" => Some(SIDES[1]),
         _ => None,
     }
 }
@@ -174,10 +175,12 @@ mod tests {
 
     #[test]
     fn words_of_programs_name_the_sides() {
-        for word in ["resp_dof", "response_nodes", "Response", "outputs", "rsp_node"] {
+        for word in ["resp_dof", "response_nodes", "Response", "outputs", "out_nodes", "rsp_node"] {
             assert_eq!(side_of(word), Some("response"), "{word}");
         }
-        for word in ["ref_dof", "reference_node", "reference", "Reference DOF", "excitation_point"] {
+        for word in
+            ["ref_dof", "reference_node", "reference", "Reference DOF", "excitation_point", "in_nodes", "inputs"]
+        {
             assert_eq!(side_of(word), Some("reference"), "{word}");
         }
         assert_eq!((side_of("H"), side_of("coh"), side_of("freq"), side_of("nodes")), (None, None, None, None));

@@ -7,6 +7,7 @@
 use super::headers::with_headers;
 use super::labels::Labels;
 use super::names::{self, Sampling};
+use super::own_times::OwnTimes;
 use super::source::Place;
 use super::timeseries::name_data;
 use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
@@ -30,14 +31,14 @@ struct Context {
 
 /// The abscissa of a group, which is also that of groups below it.
 #[derive(Clone)]
-struct Abscissa {
+pub(super) struct Abscissa {
     /// Its place among the entries of the group; none where it is of a group above.
-    entry: Option<usize>,
-    id: usize,
-    count: u64,
-    step: Option<f64>,
-    kind: Kind,
-    unit: String,
+    pub entry: Option<usize>,
+    pub id: usize,
+    pub count: u64,
+    pub step: Option<f64>,
+    pub kind: Kind,
+    pub unit: String,
 }
 
 /// Sets of a tree, and where their channels are.
@@ -102,8 +103,8 @@ impl Made<'_> {
         labels: &Labels,
     ) -> Read<()> {
         let mut set = Set::new(path, Kind::Table);
-        let mut places = Vec::new();
-        for (i, entry) in entries.iter().enumerate() {
+        let (mut places, times) = (Vec::new(), OwnTimes::among(entries, self.arrays)?);
+        for (i, entry) in entries.iter().enumerate().filter(|(i, _)| !times.is_time(*i)) {
             match &entry.node {
                 Node::Array(array) => {
                     if let Some(value) = array.scalar() {
@@ -111,6 +112,7 @@ impl Made<'_> {
                     } else if array.shape.is_square() {
                         self.matrix(path, entry, array);
                     } else {
+                        let axis = times.of(i).or(axis);
                         let is_axis = axis.is_some_and(|axis| axis.entry == Some(i));
                         let (axis, context) = if is_axis { (None, Context::default()) } else { (axis, context) };
                         channels(&mut set, &mut places, entry, array, axis, context, labels);
