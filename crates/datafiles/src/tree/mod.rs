@@ -1,5 +1,6 @@
 //! Files that are trees of named arrays (MAT, HDF5, NumPy): which arrays are channels of one set, which is their abscissa.
 
+mod abscissa;
 mod headers;
 mod labels;
 mod names;

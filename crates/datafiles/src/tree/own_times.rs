@@ -1,6 +1,6 @@
 //! Times that every channel has for itself, as DEWESoft exports them to MATLAB: `Data1_Force` and `Data1_time_Force`.
 
-use super::sets::Abscissa;
+use super::abscissa::Abscissa;
 use super::{Array, Arrays, Entry, MOST_CHECKED, Node};
 use crate::axis::{ascending, even_step};
 use crate::contents::Kind;

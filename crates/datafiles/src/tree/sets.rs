@@ -4,6 +4,7 @@
 //! such as `fs` or `dt` gives an even one, in its group and in those below. Square matrices are sets of their own. A group
 //! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
 
+use super::abscissa::Abscissa;
 use super::headers::with_headers;
 use super::labels::Labels;
 use super::names::{self, Sampling};
@@ -27,18 +28,6 @@ const DEEPEST: usize = 64;
 struct Context {
     step: Option<f64>,
     start: f64,
-}
-
-/// The abscissa of a group, which is also that of groups below it.
-#[derive(Clone)]
-pub(super) struct Abscissa {
-    /// Its place among the entries of the group; none where it is of a group above.
-    pub entry: Option<usize>,
-    pub id: usize,
-    pub count: u64,
-    pub step: Option<f64>,
-    pub kind: Kind,
-    pub unit: String,
 }
 
 /// Sets of a tree, and where their channels are.
