@@ -215,6 +215,19 @@ mod tests {
         Record::new(time, channels, samples).unwrap()
     }
 
+    /// What shakes a structure at its foot drives it: no decay, however the motion ends.
+    #[test]
+    fn a_moving_base_drives() {
+        let gust = |t: f64| (TAU * (3.0 + 7.0 * t) * t).sin() * (-1.5 * t).exp();
+        let mut base = record(Some(&gust), &|t| 2.0 * gust(t));
+        let mut channels = base.channels().to_vec();
+        channels[1] = Channel { quantity: Quantity::Base, dof: 0, label: "x".into() };
+        let samples = (0..2).map(|c| base.samples(c).to_vec()).collect();
+        base = Record::new(base.time().to_vec(), channels, samples).unwrap();
+        let proposal = propose(&base);
+        assert_eq!(proposal.kind, Kind::Transient, "{}", proposal.reason);
+    }
+
     #[test]
     fn records_are_what_they_look_like() {
         let sine = |t: f64| (TAU * 20.0 * t).sin();

@@ -121,3 +121,47 @@ impl HeldRecord {
         Ok(RecordPart { unknowns: of_laws.chain(others).collect(), products, square, left })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::diagnosis::records::problem::Free;
+    use crate::diagnosis::records::variables::scales;
+    use crate::effects::{Effect, Place, Source};
+
+    /// A power law of exponent 1 moves the structure as the dashpot does beside which all else was differentiated: the equations with what
+    /// is held are those with all derivatives.
+    #[test]
+    fn what_is_held_serves_another_law() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let wave = |dof: usize| (0..400).map(|n| 1e-2 * (0.3 * f64::from(n) + dof as f64).sin()).collect();
+        let run = decay(4e-3, vec![wave(0), wave(1)]);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let problem = FitProblem { records: &records, free: Free::all(&records), share: 1.0, control: &control };
+        let fit = |effect: Effect, parameters: &[f64]| {
+            let mut fit = FittedRecords::start(&records, &[]);
+            fit.initial[0][0] = 1e-2;
+            fit.effects = vec![Source::known(effect, Place::Dofs(vec![1]), parameters)];
+            fit
+        };
+        let (dashpot, power) = (fit(Effect::Viscous, &[0.9]), fit(Effect::Power, &[0.9, 1.0]));
+        let (held, _) = Held::new(&problem, &dashpot, &scales(&dashpot.effects), 1.0).unwrap().unwrap();
+        let scales = scales(&power.effects);
+        let shared = held.normal(&problem, &power, &scales, 1.0).unwrap();
+        let own = problem.normal(&power, &scales, 1.0).unwrap();
+        let largest = own.gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
+        for (k, (a, b)) in own.gradient.iter().zip(&shared.gradient).enumerate() {
+            assert!((a - b).abs() < 1e-6 * largest, "{k}: {a} {b}");
+            for j in 0..own.gradient.len() {
+                let size = (own.matrix[(k, k)] * own.matrix[(j, j)]).sqrt();
+                assert!((own.matrix[(k, j)] - shared.matrix[(k, j)]).abs() < 1e-6 * size, "{k} {j}");
+            }
+        }
+    }
+}

@@ -256,6 +256,38 @@ mod tests {
         [laws(search.begun_plainer(whole, &found)), laws(search.begun_elsewhere(whole, &found).unwrap())]
     }
 
+    #[test]
+    fn places_next_to_a_place_are_of_its_kind() {
+        let neighbours = chain().neighbours();
+        let ground = |dof: usize| Place::Dofs(vec![dof]);
+        assert_eq!(next_to(&ground(1), &neighbours), [ground(0), ground(2)]);
+        assert_eq!(next_to(&Place::Dofs(vec![1, 0]), &neighbours), [Place::Dofs(vec![1, 2])]);
+    }
+
+    /// A dashpot that was fitted at the wrong mass moves on to its own.
+    #[test]
+    fn a_law_moves_along_the_structure_to_its_place() {
+        let structure = chain();
+        let dashpot = |dof: usize| at(Effect::Viscous, dof, &[3.0]);
+        let still = decay(&structure);
+        let records = Records::new(&structure, &[dashpot(2)], std::slice::from_ref(&still)).unwrap();
+        let mut start = FittedRecords::start(&records, &[]);
+        start.initial[0][..3].copy_from_slice(&[2e-2, 1e-2, 8e-3]);
+        let truth = start.predict(&records, 0, still.len(), &[]).unwrap().channels;
+        let record = Record::new(still.time().to_vec(), still.channels().to_vec(), truth).unwrap();
+        let run = still.with_record(Arc::new(record));
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        start.known.clear();
+        start.effects = vec![dashpot(0)];
+        let wrong = search.fit(whole, &start, 1.0, [2, 3]).unwrap();
+        let found = search.moved_along(whole, vec![wrong]).unwrap();
+        let law = &found[0].effects[0];
+        assert!(law.place == Place::Dofs(vec![2]) && (law.parameters[0] - 3.0).abs() < 0.01, "{law:?}");
+    }
+
     /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
     #[test]
     fn a_simpler_law_that_was_cut_off_begins_again() {
