@@ -28,6 +28,11 @@ pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
     let springs = structure.springs(MOST_SPRINGS);
     if springs.is_empty() || (structure.kind() != StructureKind::Chain && structure.len() > MOST_SPRINGS) {
         parts.extend(modes_in_band(structure, omegas).into_iter().map(Part::Mode));
+        // Mass is where it is, however stiffness is spread: a wrong mass at a node shows in the shapes of all modes as no error at the
+        // sensors does.
+        if structure.len() <= MOST_SPRINGS {
+            parts.extend(structure.translations().into_iter().map(Part::PointMass));
+        }
     } else {
         parts.extend(springs);
         parts.extend((0..structure.len()).map(Part::PointMass));
@@ -40,4 +45,29 @@ fn modes_in_band(structure: &Structure, omegas: &[f64]) -> Vec<usize> {
     let Ok(modes) = structure.modes() else { return Vec::new() };
     let near = |w: f64| omegas.iter().any(|&o| w > 0.0 && (o / w).ln().abs() < NEAR_BAND);
     (0..modes.len()).filter(|&r| near(modes.omega[r])).take(MOST_MODES).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::structure::imported::{ImportedDof, ImportedParameters};
+    use crate::structure::{Direction, Part};
+    use faer::Mat;
+
+    /// Of imported matrices that are no springs, modes are wrong in stiffness and nodes in mass; a rotation has none of its own.
+    #[test]
+    fn matrices_are_wrong_by_modes_and_by_masses_at_their_nodes() {
+        let dof = |label: &str, direction| ImportedDof { label: label.into(), node: label[..1].into(), direction };
+        let parameters = ImportedParameters {
+            mass: Mat::identity(2, 2),
+            stiffness: Mat::from_fn(2, 2, |i, j| if i == j { 4.0 } else { -1.0 }),
+            nodes: None,
+            dofs: Some(vec![dof("1z", Direction::Z), dof("1ry", Direction::Ry)]),
+            lines: Vec::new(),
+        };
+        let structure = parameters.build(&[]).unwrap();
+        let found = parts(&structure, &[3.0_f64.sqrt(), 5.0_f64.sqrt()]);
+        assert_eq!(found, [Part::Stiffness, Part::Mass, Part::Mode(0), Part::Mode(1), Part::PointMass(0)]);
+    }
 }
