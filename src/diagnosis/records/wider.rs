@@ -216,12 +216,13 @@ mod tests {
         ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
     }
 
-    /// A decay in the first mode of the chain, all displacements.
-    fn decay(structure: &Structure) -> TransientRun {
+    /// A decay in the first `count` modes of the chain, all displacements.
+    fn decay(structure: &Structure, count: usize) -> TransientRun {
         let modes = structure.modes().unwrap();
-        let wave = |n: usize, dof: usize| {
+        let wave = |n: usize, dof: usize| -> f64 {
             let t = 5e-3 * n as f64;
-            2e-2 * modes.shapes[(dof, 0)] * (-0.3 * t).exp() * (modes.omega[0] * t).cos()
+            let mode = |r: usize| 2e-2 * modes.shapes[(dof, r)] * (-0.3 * t).exp() * (modes.omega[r] * t).cos();
+            (0..count).map(mode).sum()
         };
         let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
         let samples = (0..3).map(|dof| (0..2400).map(|n| wave(n, dof)).collect()).collect();
@@ -238,7 +239,7 @@ mod tests {
     /// What a search begins beside some fits, each of one effect with its squared residual.
     fn begun(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
         let structure = chain();
-        let run = decay(&structure);
+        let run = decay(&structure, 1);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
         let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
@@ -269,7 +270,7 @@ mod tests {
     fn a_law_moves_along_the_structure_to_its_place() {
         let structure = chain();
         let dashpot = |dof: usize| at(Effect::Viscous, dof, &[3.0]);
-        let still = decay(&structure);
+        let still = decay(&structure, 3);
         let records = Records::new(&structure, &[dashpot(2)], std::slice::from_ref(&still)).unwrap();
         let mut start = FittedRecords::start(&records, &[]);
         start.initial[0][..3].copy_from_slice(&[2e-2, 1e-2, 8e-3]);
