@@ -113,6 +113,7 @@ impl<'a> Receptances<'a> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::structure::Direction;
     use crate::structure::imported::{ImportedDof, ImportedParameters};
