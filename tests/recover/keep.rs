@@ -2,6 +2,8 @@
 //! A cantilever whose five best single columns are all beside the true places: without that the search takes a fourth source of
 //! 8e-5 N s/m (first seed), or two (second).
 
+#![allow(clippy::disallowed_methods, reason = "projects in a folder that is thrown away")]
+
 use dashpot::cli::answer;
 use serde_json::Value;
 use std::path::Path;
