@@ -26,6 +26,7 @@ pub(crate) mod localisation;
 mod missing_force;
 mod modal_equations;
 mod model_errors;
+mod neighbouring_places;
 mod next_test;
 mod normal;
 mod part_directions;

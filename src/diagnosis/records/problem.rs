@@ -14,8 +14,7 @@ use crate::response::transient::TransientParameter;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
-const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, PRIOR_OF_MODE, 0.02, 0.02, 0.01];
-pub(super) const PRIOR_OF_MODE: f64 = 0.02;
+const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 

@@ -10,7 +10,7 @@
 use super::data::RecordError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
-use super::problem::{FitProblem, Free, PRIOR_OF_MODE};
+use super::problem::{FitProblem, Free};
 use super::search::Search;
 use crate::control::Control;
 use crate::diagnosis::updating::correction::Correction;
@@ -26,15 +26,6 @@ const ROUNDS: [usize; 2] = [3, 3];
 /// Gain of evidence by which supports must give way, and share of the squared residual that may be left.
 const GAIN: f64 = 40.0;
 const LEFT: f64 = 0.6;
-
-/// Deviations of its prior by which the stiffness of a mode may be corrected beside a support: all modes follow from that.
-const BENT: f64 = 4.0;
-
-/// Whether the stiffness of a mode, as logarithms, must be corrected by far more than models are wrong by: friction that sticks changes
-/// single modes, and a soft support is a poor likeness of it.
-fn bends_modes(modes: &[f64]) -> bool {
-    modes.iter().any(|v| v.abs() > BENT * PRIOR_OF_MODE)
-}
 
 /// A try: the factor, the fit with it.
 type Tried = (f64, FittedRecords);
@@ -67,8 +58,7 @@ impl Search<'_> {
         let Some((g, best)) = found.into_iter().min_by(|a, b| worth(a).total_cmp(&worth(b))) else {
             return Ok(Vec::new());
         };
-        let gains = evidence(&rigid, unit) - evidence(&best.1, unit) >= GAIN;
-        if best.1.chi_square > LEFT * rigid.chi_square || !gains || bends_modes(&best.1.modes) {
+        if best.1.chi_square > LEFT * rigid.chi_square || evidence(&rigid, unit) - evidence(&best.1, unit) < GAIN {
             return Ok(Vec::new());
         }
         let (factor, deviation) = self.refined(&base, &groups[g], best, &alone);
@@ -115,16 +105,5 @@ impl Search<'_> {
             width *= 0.5;
         }
         (at, deviation.max(width))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bends_modes;
-
-    #[test]
-    fn a_support_leaves_the_modes_where_they_follow_from_it() {
-        assert!(!bends_modes(&[0.03, -0.02, 0.05]));
-        assert!(bends_modes(&[-0.3, 0.03, 0.04]));
     }
 }

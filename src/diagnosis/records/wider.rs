@@ -9,7 +9,7 @@ use super::laws::LAWS;
 use super::rivals::is_same_set;
 use super::score::{ScoreTest, Scored};
 use super::search::Search;
-use crate::effects::{Effect, Leg, Place, Source};
+use crate::effects::{Effect, Leg, Source};
 use crate::response::transient::force_along;
 use dashpot_numerics::dot;
 
@@ -20,8 +20,6 @@ const BEGUN_OF_ALL: usize = 8;
 /// they are rivals.
 const ELSEWHERE: usize = 2;
 const NEAR: f64 = 4.0;
-/// Most steps along the structure by which the law of the best fit is moved to where it leaves less.
-const MOVED: usize = 3;
 
 impl Search<'_> {
     /// The best of `found` with its last law replaced by wider ones, from where they leave least; on parts of records none where it
@@ -69,65 +67,6 @@ impl Search<'_> {
         }
         starts.retain(|s| !self.given_up.holds(&s.effects));
         Ok(starts)
-    }
-
-    /// Fits, best first, with the last law of the best moved along the structure from place to place as long as it leaves less there.
-    pub(super) fn moved_along(
-        &self,
-        level: usize,
-        mut found: Vec<FittedRecords>,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
-        let place = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.place.clone());
-        for _ in 0..MOVED {
-            let next_to = self.begun_next_to(level, &found)?;
-            let before = place(&found);
-            if next_to.is_empty() {
-                break;
-            }
-            found = self.with_begun(level, found, &next_to)?;
-            if before == place(&found) {
-                break;
-            }
-        }
-        Ok(found)
-    }
-
-    /// The best of `found` with its last law moved to the places next to its own, the [`ELSEWHERE`] that would leave least to first order:
-    /// between sensors a free force of a model that is off is seen at the wrong one of them.
-    fn begun_next_to(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
-        let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
-        let moved = |place: Place| {
-            let mut effects = best.effects.clone();
-            let last = effects.len() - 1;
-            effects[last].place = place;
-            effects
-        };
-        let tried = |effects: &[Source]| {
-            let known = best.effects[..best.effects.len() - 1].iter().any(|e| e.is_same(&effects[effects.len() - 1]));
-            known || self.given_up.holds(effects) || found.iter().any(|f| is_same_set(&f.effects, effects))
-        };
-        let mut places = next_to(&law.place, &self.records.structure.neighbours());
-        places.retain(|place| !tried(&moved(place.clone())));
-        if places.is_empty() || self.control.is_late() {
-            return Ok(Vec::new());
-        }
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
-        let test = match ScoreTest::new(&problem, best).and_then(|test| test.without(law)) {
-            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
-            other => other?,
-        };
-        let at = self.control.map(places.len(), |k| test.at(&places[k], &[law.effect]));
-        let mut few: Vec<Scored> = at.into_iter().flatten().collect();
-        few.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        few.truncate(ELSEWHERE);
-        let in_place = |scored: Scored| {
-            let mut start = best.clone();
-            start.effects.pop();
-            start.effects.push(scored.source);
-            start
-        };
-        Ok(few.into_iter().map(in_place).collect())
     }
 
     /// `fit` with its last law replaced by others, doing the same force along its motion: the [`BEGUN`] shapes of each, and
@@ -182,22 +121,6 @@ impl Search<'_> {
     }
 }
 
-/// Places of the kind of `place`, to the ground or between two DOFs, one step along the structure away from it.
-fn next_to(place: &Place, neighbours: &[[usize; 2]]) -> Vec<Place> {
-    let Place::Dofs(own) = place else { return Vec::new() };
-    match own[..] {
-        [dof] => {
-            let other = |pair: &[usize; 2]| pair.contains(&dof).then_some(pair[usize::from(pair[0] == dof)]);
-            neighbours.iter().filter_map(other).map(|dof| Place::Dofs(vec![dof])).collect()
-        }
-        [a, b] => {
-            let shares_one = |pair: &&[usize; 2]| pair.contains(&a) != pair.contains(&b);
-            neighbours.iter().filter(shares_one).map(|pair| Place::Dofs(pair.to_vec())).collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
@@ -205,6 +128,7 @@ mod tests {
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::diagnosis::records::fitted::FittedRecords;
+    use crate::effects::Place;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
     use crate::structure::Structure;
@@ -216,13 +140,12 @@ mod tests {
         ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1500.0, 900.0] }.build(&[]).unwrap()
     }
 
-    /// A decay in the first `count` modes of the chain, all displacements.
-    fn decay(structure: &Structure, count: usize) -> TransientRun {
+    /// A decay in the first mode of the chain, all displacements.
+    fn decay(structure: &Structure) -> TransientRun {
         let modes = structure.modes().unwrap();
-        let wave = |n: usize, dof: usize| -> f64 {
+        let wave = |n: usize, dof: usize| {
             let t = 5e-3 * n as f64;
-            let mode = |r: usize| 2e-2 * modes.shapes[(dof, r)] * (-0.3 * t).exp() * (modes.omega[r] * t).cos();
-            (0..count).map(mode).sum()
+            2e-2 * modes.shapes[(dof, 0)] * (-0.3 * t).exp() * (modes.omega[0] * t).cos()
         };
         let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
         let samples = (0..3).map(|dof| (0..2400).map(|n| wave(n, dof)).collect()).collect();
@@ -239,7 +162,7 @@ mod tests {
     /// What a search begins beside some fits, each of one effect with its squared residual.
     fn begun(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
         let structure = chain();
-        let run = decay(&structure, 1);
+        let run = decay(&structure);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
         let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
@@ -255,38 +178,6 @@ mod tests {
         let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
         let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
         [laws(search.begun_plainer(whole, &found)), laws(search.begun_elsewhere(whole, &found).unwrap())]
-    }
-
-    #[test]
-    fn places_next_to_a_place_are_of_its_kind() {
-        let neighbours = chain().neighbours();
-        let ground = |dof: usize| Place::Dofs(vec![dof]);
-        assert_eq!(next_to(&ground(1), &neighbours), [ground(0), ground(2)]);
-        assert_eq!(next_to(&Place::Dofs(vec![1, 0]), &neighbours), [Place::Dofs(vec![1, 2])]);
-    }
-
-    /// A dashpot that was fitted at the mass beside its own moves there.
-    #[test]
-    fn a_law_moves_along_the_structure_to_its_place() {
-        let structure = chain();
-        let dashpot = |dof: usize| at(Effect::Viscous, dof, &[3.0]);
-        let still = decay(&structure, 3);
-        let records = Records::new(&structure, &[dashpot(1)], std::slice::from_ref(&still)).unwrap();
-        let mut start = FittedRecords::start(&records, &[]);
-        start.initial[0][..3].copy_from_slice(&[2e-2, 1e-2, 8e-3]);
-        let truth = start.predict(&records, 0, still.len(), &[]).unwrap().channels;
-        let record = Record::new(still.time().to_vec(), still.channels().to_vec(), truth).unwrap();
-        let run = still.with_record(Arc::new(record));
-        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
-        let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
-        let whole = search.levels.len() - 1;
-        start.known.clear();
-        start.effects = vec![dashpot(0)];
-        let wrong = search.fit(whole, &start, 1.0, [2, 3]).unwrap();
-        let found = search.moved_along(whole, vec![wrong]).unwrap();
-        let law = &found[0].effects[0];
-        assert!(law.place == Place::Dofs(vec![1]) && (law.parameters[0] - 3.0).abs() < 0.15, "{law:?}");
     }
 
     /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.

@@ -1,0 +1,143 @@
+//! The law that fits best at the places next to its own: between sensors a free force of a model that is off is seen at the wrong one of
+//! them.
+
+use super::data::RecordError;
+use super::fitted::FittedRecords;
+use super::rivals::is_same_set;
+use super::score::{ScoreTest, Scored};
+use super::search::Search;
+use crate::effects::{Place, Source};
+
+/// Places next to that of the best at which its law is begun.
+const BESIDE: usize = 2;
+/// Most steps along the structure by which the law of the best fit is moved to where it leaves less.
+const MOVED: usize = 3;
+
+impl Search<'_> {
+    /// Fits, best first, with the last law of the best moved along the structure from place to place as long as it leaves less there.
+    pub(super) fn moved_along(
+        &self,
+        level: usize,
+        mut found: Vec<FittedRecords>,
+    ) -> Result<Vec<FittedRecords>, RecordError> {
+        let place = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.place.clone());
+        for _ in 0..MOVED {
+            let next_to = self.begun_next_to(level, &found)?;
+            let before = place(&found);
+            if next_to.is_empty() {
+                break;
+            }
+            found = self.with_begun(level, found, &next_to)?;
+            if before == place(&found) {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The best of `found` with its last law moved to the places next to its own, the [`BESIDE`] that would leave least to first order.
+    fn begun_next_to(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
+        let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
+        let moved = |place: Place| {
+            let mut effects = best.effects.clone();
+            let last = effects.len() - 1;
+            effects[last].place = place;
+            effects
+        };
+        let tried = |effects: &[Source]| {
+            let known = best.effects[..best.effects.len() - 1].iter().any(|e| e.is_same(&effects[effects.len() - 1]));
+            known || self.given_up.holds(effects) || found.iter().any(|f| is_same_set(&f.effects, effects))
+        };
+        let mut places = next_to(&law.place, &self.records.structure.neighbours());
+        places.retain(|place| !tried(&moved(place.clone())));
+        if places.is_empty() || self.control.is_late() {
+            return Ok(Vec::new());
+        }
+        let alone = self.control.alone();
+        let problem = self.problem(level, 1.0, &alone);
+        let test = match ScoreTest::new(&problem, best).and_then(|test| test.without(law)) {
+            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
+            other => other?,
+        };
+        let at = self.control.map(places.len(), |k| test.at(&places[k], &[law.effect]));
+        let mut few: Vec<Scored> = at.into_iter().flatten().collect();
+        few.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        few.truncate(BESIDE);
+        let in_place = |scored: Scored| {
+            let mut start = best.clone();
+            start.effects.pop();
+            start.effects.push(scored.source);
+            start
+        };
+        Ok(few.into_iter().map(in_place).collect())
+    }
+}
+
+/// Places of the kind of `place`, to the ground or between two DOFs, one step along the structure away from it.
+fn next_to(place: &Place, neighbours: &[[usize; 2]]) -> Vec<Place> {
+    let Place::Dofs(own) = place else { return Vec::new() };
+    match own[..] {
+        [dof] => {
+            let other = |pair: &[usize; 2]| pair.contains(&dof).then_some(pair[usize::from(pair[0] == dof)]);
+            neighbours.iter().filter_map(other).map(|dof| Place::Dofs(vec![dof])).collect()
+        }
+        [a, b] => {
+            let shares_one = |pair: &&[usize; 2]| pair.contains(&a) != pair.contains(&b);
+            neighbours.iter().filter(shares_one).map(|pair| Place::Dofs(pair.to_vec())).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::effects::Effect;
+    use crate::structure::Structure;
+
+    fn three_masses() -> Structure {
+        chain(&[2.0, 1.0, 1.5], &[800.0, 0.0, 0.0], &[1500.0, 900.0])
+    }
+
+    #[test]
+    fn places_next_to_a_place_are_of_its_kind() {
+        let neighbours = three_masses().neighbours();
+        let ground = |dof: usize| Place::Dofs(vec![dof]);
+        assert_eq!(next_to(&ground(1), &neighbours), [ground(0), ground(2)]);
+        assert_eq!(next_to(&Place::Dofs(vec![1, 0]), &neighbours), [Place::Dofs(vec![1, 2])]);
+    }
+
+    /// A dashpot that was fitted at the mass beside its own moves there.
+    #[test]
+    fn a_law_moves_along_the_structure_to_its_place() {
+        let structure = three_masses();
+        let modes = structure.modes().unwrap();
+        let wave = |n: usize, dof: usize| -> f64 {
+            let t = 5e-3 * n as f64;
+            let mode = |r: usize| 2e-2 * modes.shapes[(dof, r)] * (-0.3 * t).exp() * (modes.omega[r] * t).cos();
+            (0..3).map(mode).sum()
+        };
+        let dashpot = |dof: usize| Source::known(Effect::Viscous, Place::Dofs(vec![dof]), &[3.0]);
+        let in_all_modes = decay(5e-3, (0..3).map(|dof| (0..2400).map(|n| wave(n, dof)).collect()).collect());
+        let records = Records::new(&structure, &[dashpot(1)], std::slice::from_ref(&in_all_modes)).unwrap();
+        let mut start = FittedRecords::start(&records, &[]);
+        start.initial[0][..3].copy_from_slice(&[2e-2, 1e-2, 8e-3]);
+        let truth = start.predict(&records, 0, in_all_modes.len(), &[]).unwrap().channels;
+        let run = decay(5e-3, truth);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        start.known.clear();
+        start.effects = vec![dashpot(0)];
+        let wrong = search.fit(whole, &start, 1.0, [2, 3]).unwrap();
+        let found = search.moved_along(whole, vec![wrong]).unwrap();
+        let law = &found[0].effects[0];
+        assert!(law.place == Place::Dofs(vec![1]) && (law.parameters[0] - 3.0).abs() < 0.15, "{law:?}");
+    }
+}
