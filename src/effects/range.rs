@@ -15,6 +15,11 @@ pub struct Range {
     pub omega: f64,
 }
 
+/// Share of the largest amplitude below which motion counts as rest where it is asked when a slider slips.
+const DEEPEST: f64 = 1e-4;
+/// Most ratios between the lengths that are tried.
+const MOST: usize = 24;
+
 impl Range {
     /// Of a motion of which nothing is known: no comparison with it holds.
     pub const UNKNOWN: Self = Self { displacement: f64::NAN, least: f64::NAN, velocity: f64::NAN, omega: f64::NAN };
@@ -48,9 +53,19 @@ impl Range {
         if count == 0.0 { Self::UNKNOWN } else { Self { omega: (sum.omega / count).exp(), ..sum } }
     }
 
-    /// Extensions (m) at which a slider may begin to slip: from well below the least amplitude to the largest.
+    /// Extensions (m) at which a slider may begin to slip: from well below the least amplitude to the largest, which over several modes
+    /// are decades apart. Slipping begins so gradually that fits find their way over a factor of two.
     pub fn yields(&self) -> Vec<f64> {
-        geometric(0.3 * self.least.max(0.02 * self.displacement), 0.95 * self.displacement, 8)
+        self.extensions([0.3, 0.95], 8, 2.5)
+    }
+
+    /// Lengths (m) from `share[0]` of the least amplitude, or of what counts as rest, to `share[1]` of the largest: `count`, or as many
+    /// as leave no more than a factor of `apart` between neighbours.
+    pub fn extensions(&self, share: [f64; 2], count: usize, apart: f64) -> Vec<f64> {
+        let first = share[0] * self.least.max(DEEPEST * self.displacement);
+        let last = share[1] * self.displacement;
+        let steps = ((last / first).ln() / apart.ln()).ceil();
+        geometric(first, last, count.max((steps as usize).min(MOST) + 1))
     }
 }
 
@@ -66,6 +81,17 @@ mod tests {
     use super::*;
     use crate::effects::Sampling;
     use faer::c64;
+
+    /// Extensions begin below the least motion however far it is below the largest, and none is farther from the next than is asked.
+    #[test]
+    fn yields_reach_below_the_least_of_motions_that_are_decades_apart() {
+        for least in [5e-3, 1e-4, 1e-5] {
+            let range = Range::of_amplitudes([[10.0, 1e-2], [100.0, least]].into_iter());
+            let yields = range.yields();
+            assert!(yields[0] <= 0.31 * least && yields.len() >= 8, "{yields:?}");
+            assert!(yields.windows(2).all(|pair| pair[1] / pair[0] < 2.5001), "{yields:?}");
+        }
+    }
 
     /// Sampled sines have the range of their amplitudes; of no motion nothing is known.
     #[test]

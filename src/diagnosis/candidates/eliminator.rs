@@ -1,5 +1,5 @@
 //! Parameters that were free beside a free force, eliminated from the regression of laws on it: the force `g` would change
-//! by `Gamma du` with the common parameters, of which `N` is known without it, and its fundamental has the covariance
+//! by `Gamma du` with the common parameters, of which `N` is known without it, and each harmonic has the covariance
 //! `1/w + Sigma_own` by what is the run's own:
 //!
 //! ```text
@@ -16,9 +16,9 @@ use faer::Mat;
 /// The elimination for the free forces of one place.
 #[derive(Debug, Clone)]
 pub(crate) struct Eliminator {
-    /// By run: lower triangle that turns the weighted fundamental into one of unit covariance, `[a, b, c]` of
+    /// By run and harmonic: lower triangle that turns the weighted force into one of unit covariance, `[a, b, c]` of
     /// `[[a, 0], [b, c]]`, and where its two rows stand.
-    fundamentals: Vec<(usize, [f64; 3])>,
+    turns: Vec<(usize, [f64; 3])>,
     /// Orthonormal columns that span what the common parameters may do, data rows first.
     basis: Vec<Vec<f64>>,
 }
@@ -30,15 +30,16 @@ impl Eliminator {
         let q = freedom.information.nrows();
         let count: usize = forces.iter().map(|run| 2 * run.len()).sum();
         let mut stacked = Mat::<f64>::zeros(count + q, q);
-        let (mut fundamentals, mut at) = (Vec::new(), 0);
+        let (mut turns, mut at) = (Vec::new(), 0);
         for (run, free) in forces.iter().zip(&freedom.runs) {
-            if let (Some(first), Some(free)) = (run.first().filter(|f| f.weight > 0.0), free) {
-                let lower = root(first.weight, free.own);
-                fundamentals.push((at, lower));
+            for (h, force) in run.iter().enumerate().filter(|(_, f)| f.weight > 0.0) {
+                let Some(Some(free)) = free.get(h) else { continue };
+                let lower = root(force.weight, free.own);
+                let row = at + 2 * h;
+                turns.push((row, lower));
                 for (k, by) in free.common.iter().enumerate() {
-                    let scaled = [by.re, by.im].map(|x| x * first.weight.sqrt());
-                    let turned = turn(lower, scaled);
-                    (stacked[(at, k)], stacked[(at + 1, k)]) = (turned[0], turned[1]);
+                    let turned = turn(lower, [by.re, by.im].map(|x| x * force.weight.sqrt()));
+                    (stacked[(row, k)], stacked[(row + 1, k)]) = (turned[0], turned[1]);
                 }
             }
             at += 2 * run.len();
@@ -52,12 +53,12 @@ impl Eliminator {
             let (orthonormal, _) = thin_qr(stacked.as_ref());
             basis = (0..q).map(|k| orthonormal.col_as_slice(k).to_vec()).collect();
         }
-        Self { fundamentals, basis }
+        Self { turns, basis }
     }
 
     /// Weighted differences of free force and law with everything eliminated; the sum of their squares is `J`.
     pub(super) fn eliminated(&self, mut rows: Vec<f64>) -> Vec<f64> {
-        for &(at, lower) in &self.fundamentals {
+        for &(at, lower) in &self.turns {
             let turned = turn(lower, [rows[at], rows[at + 1]]);
             (rows[at], rows[at + 1]) = (turned[0], turned[1]);
         }
@@ -86,7 +87,7 @@ fn turn([a, b, c]: [f64; 3], [x, y]: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::localisation::free_force::RunForceFreedom;
+    use crate::diagnosis::localisation::free_force::HarmonicForceFreedom;
     use faer::c64;
 
     #[test]
@@ -95,7 +96,7 @@ mod tests {
         let runs = (0..3)
             .map(|r| {
                 let common = vec![c64::new(1.0 + f64::from(r), -0.5), c64::new(0.2, f64::from(r))];
-                Some(RunForceFreedom { common, own: [0.0; 3] })
+                vec![Some(HarmonicForceFreedom { common, own: [0.0; 3] })]
             })
             .collect::<Vec<_>>();
         let information = Mat::from_fn(2, 2, |i, j| if i == j { 3.0 } else { 0.5 });
@@ -104,7 +105,7 @@ mod tests {
         let left: f64 = Eliminator::new(&forces, &freedom).eliminated(rows.clone()).iter().map(|x| x * x).sum();
         let cost = |u: [f64; 2]| {
             let mut sum = 0.0;
-            for (r, run) in runs.iter().flatten().enumerate() {
+            for (r, run) in runs.iter().flatten().flatten().enumerate() {
                 let by = (run.common[0] * u[0] + run.common[1] * u[1]) * 2.0;
                 sum += (rows[2 * r] + by.re).powi(2) + (rows[2 * r + 1] + by.im).powi(2);
             }

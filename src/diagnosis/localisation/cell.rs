@@ -1,7 +1,7 @@
 //! One harmonic of one run seen from every place: whitened residual, columns of the places and of the parameters that are
 //! free, and what is left once free forces and the run's own parameters are eliminated.
 
-use crate::math::least_squares::solve_symmetric;
+use dashpot_numerics::{self as numerics, Cholesky, transposed_product};
 use faer::{Mat, c64};
 use std::borrow::Cow;
 use std::sync::OnceLock;
@@ -70,7 +70,7 @@ impl Cell {
 
     /// The cell after a change of the parameters, common ones and those of its run.
     pub(super) fn corrected(&self, change: &[f64], own: &[f64]) -> Cow<'_, Self> {
-        if self.slopes.is_empty() && self.own.is_empty() {
+        if self.is_held() {
             return Cow::Borrowed(self);
         }
         let mut cell = self.clone();
@@ -91,45 +91,62 @@ impl Cell {
         cell
     }
 
+    /// Whether no parameter is free here.
+    pub(super) fn is_held(&self) -> bool {
+        self.slopes.is_empty() && self.own.is_empty()
+    }
+
     /// `Re [B V]^H [B V]`.
-    fn gram(&self) -> &Mat<f64> {
+    pub(super) fn gram(&self) -> &Mat<f64> {
         self.gram.get_or_init(|| {
             let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
-            let mut gram = Mat::zeros(all.len(), all.len());
-            for (i, a) in all.iter().enumerate() {
-                for (j, b) in all.iter().enumerate().take(i + 1) {
-                    let product = dot(a, b).re;
-                    gram[(i, j)] = product;
-                    gram[(j, i)] = product;
-                }
-            }
-            gram
+            let channels = self.residual.len();
+            let part = |i: usize, k: usize| if i < channels { all[k][i].re } else { all[k][i - channels].im };
+            let stacked = Mat::from_fn(2 * channels, all.len(), part);
+            transposed_product(stacked.as_ref(), stacked.as_ref())
         })
     }
 
-    /// Normal equations of the common parameters where free forces at `spots` and the run's own parameters are eliminated.
+    /// What free forces at `spots` and the run's own parameters, with the prior weight `misfit`, take off the normal equations of the
+    /// common ones.
     pub(super) fn eliminate(&self, spots: &[usize], misfit: f64) -> Eliminated {
         let basis = self.basis(spots);
-        let all: Vec<&Vec<c64>> = self.slopes.iter().chain(&self.own).collect();
-        let shares: Vec<Vec<c64>> = all.iter().map(|b| basis.iter().map(|v| dot(v, b)).collect()).collect();
-        let seen: Vec<c64> = basis.iter().map(|v| dot(v, &self.residual)).collect();
-        let gram = self.gram();
-        let product = |i: usize, j: usize| gram[(i, j)] - dot(&shares[i], &shares[j]).re;
-        let load = |i: usize| (dot(all[i], &self.residual) - dot(&shares[i], &seen)).re;
-        let (q, p) = (self.slopes.len(), self.own.len());
-        let inner = Mat::from_fn(p, p, |i, j| product(q + i, q + j) + if i == j { misfit } else { 0.0 });
-        let outer = Mat::from_fn(p, q + 1, |i, j| if j < q { product(q + i, j) } else { load(q + i) });
-        let inverse = solve_symmetric(inner.as_ref(), Mat::<f64>::identity(p, p).as_ref());
-        let inverse = inverse.unwrap_or_else(|_| Mat::zeros(p, p));
-        let solved = &inverse * &outer;
-        let eliminated = |i: usize, j: usize| (0..p).map(|k| outer[(k, i)] * solved[(k, j)]).sum::<f64>();
-        Eliminated {
-            normal: Mat::from_fn(q, q, |i, j| product(i, j) - eliminated(i, j)),
-            right: (0..q).map(|i| load(i) - eliminated(i, q)).collect(),
-            gain: eliminated(q, q),
-            solved,
-            inverse,
+        let (q, p, forces) = (self.slopes.len(), self.own.len(), 2 * basis.len());
+        let mut columns = vec![0.0; q * (forces + p)];
+        let mut loads = vec![0.0; forces + p];
+        let mut shares = vec![vec![0.0; forces]; p];
+        for (i, v) in basis.iter().enumerate() {
+            let (re, im) = (2 * i, 2 * i + 1);
+            for (j, b) in self.slopes.iter().enumerate() {
+                let share = dot(v, b);
+                (columns[re * q + j], columns[im * q + j]) = (share.re, share.im);
+            }
+            for (own, b) in shares.iter_mut().zip(&self.own) {
+                let share = dot(v, b);
+                (own[re], own[im]) = (share.re, share.im);
+            }
+            let seen = dot(v, &self.residual);
+            (loads[re], loads[im]) = (seen.re, seen.im);
         }
+        let gram = self.gram();
+        let inner = Mat::from_fn(p, p, |i, j| {
+            gram[(q + i, q + j)] - numerics::dot(&shares[i], &shares[j]) + if i == j { misfit } else { 0.0 }
+        });
+        let factor = Cholesky::new(inner.as_ref());
+        let lower = factor.map_or_else(|| Mat::zeros(p, p), |factor| factor.factor().to_owned());
+        for k in (0..p).filter(|&k| lower[(k, k)] > 0.0) {
+            let (before, own) = columns.split_at_mut((forces + k) * q);
+            let mut load = dot(&self.own[k], &self.residual).re - numerics::dot(&shares[k], &loads[..forces]);
+            own[..q].iter_mut().enumerate().for_each(|(j, x)| *x = gram[(q + k, j)]);
+            for (d, column) in before.chunks_exact(q.max(1)).enumerate() {
+                let factor = if d < forces { shares[k][d] } else { lower[(k, d - forces)] };
+                own[..q].iter_mut().zip(column).for_each(|(x, c)| *x -= factor * c);
+            }
+            (0..k).for_each(|l| load -= lower[(k, l)] * loads[forces + l]);
+            own[..q].iter_mut().for_each(|x| *x /= lower[(k, k)]);
+            loads[forces + k] = load / lower[(k, k)];
+        }
+        Eliminated { columns, loads, lower }
     }
 
     pub(super) fn left_by(&self, s: usize) -> f64 {
@@ -176,24 +193,68 @@ impl Cell {
     }
 }
 
-/// Normal equations of a run whose own parameters are eliminated.
+/// What is taken off the normal equations of the common parameters: their matrix becomes `G - X X^T`, their right side `b - X y`.
 #[derive(Debug, Clone)]
 pub(super) struct Eliminated {
-    pub(super) normal: Mat<f64>,
-    pub(super) right: Vec<f64>,
-    pub(super) gain: f64,
-    /// Own parameters, one column a common one whose change takes its share off, the last as they are without.
-    pub(super) solved: Mat<f64>,
-    /// Covariance of the own ones, free forces eliminated.
-    pub(super) inverse: Mat<f64>,
+    /// `X`, column by column, two of every free force, then one of every own parameter.
+    pub(super) columns: Vec<f64>,
+    /// `y`.
+    pub(super) loads: Vec<f64>,
+    /// Lower Cholesky factor `L` of the matrix of the own parameters, free forces eliminated; zero where there is none.
+    lower: Mat<f64>,
 }
 
 impl Eliminated {
-    /// Own parameters after a `change` of the common ones.
+    /// By how much the own parameters lower the squared residual: `|y|^2` of theirs.
+    pub(super) fn gain(&self) -> f64 {
+        self.own_loads().iter().map(|y| y * y).sum()
+    }
+
+    fn own_loads(&self) -> &[f64] {
+        &self.loads[self.loads.len() - self.lower.nrows()..]
+    }
+
+    /// Columns of `X` of the own parameters.
+    fn own_columns(&self) -> impl Iterator<Item = &[f64]> {
+        let q = self.columns.len() / self.loads.len().max(1);
+        let first = self.loads.len() - self.lower.nrows();
+        (first..self.loads.len()).map(move |d| &self.columns[d * q..(d + 1) * q])
+    }
+
+    /// `L^-T z`.
+    fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
+        for k in (0..z.len()).rev() {
+            let known: f64 = (k + 1..z.len()).map(|l| self.lower[(l, k)] * z[l]).sum();
+            z[k] = if self.lower[(k, k)] > 0.0 { (z[k] - known) / self.lower[(k, k)] } else { 0.0 };
+        }
+        z
+    }
+
+    /// Own parameters after a `change` of the common ones: `L^-T (y - X^T du)`.
     pub(super) fn own(&self, change: &[f64]) -> Vec<f64> {
-        let q = self.right.len();
-        let of = |k: usize| self.solved[(k, q)] - (0..q).map(|j| self.solved[(k, j)] * change[j]).sum::<f64>();
-        (0..self.solved.nrows()).map(of).collect()
+        let left = self.own_columns().zip(self.own_loads()).map(|(x, y)| y - numerics::dot(x, &change[..x.len()]));
+        self.back(left.collect())
+    }
+
+    /// Change of the own parameters, sign reversed, with each common one, one list a common one: columns of `L^-T X^T`.
+    pub(super) fn own_by_common(&self) -> Vec<Vec<f64>> {
+        let columns: Vec<&[f64]> = self.own_columns().collect();
+        let count = columns.first().map_or(0, |x| x.len());
+        (0..count).map(|j| self.back(columns.iter().map(|x| x[j]).collect())).collect()
+    }
+
+    /// Covariance of the own parameters, free forces eliminated: `(L L^T)^-1`, column by column.
+    pub(super) fn covariance(&self) -> Vec<Vec<f64>> {
+        let p = self.lower.nrows();
+        let unit = |k: usize| {
+            let mut z = vec![0.0; p];
+            for i in (k..p).filter(|&i| self.lower[(i, i)] > 0.0) {
+                let known: f64 = (k..i).map(|l| self.lower[(i, l)] * z[l]).sum();
+                z[i] = (f64::from(u8::from(i == k)) - known) / self.lower[(i, i)];
+            }
+            self.back(z)
+        };
+        (0..p).map(unit).collect()
     }
 }
 

@@ -9,17 +9,23 @@
 //! is what no law at that place could explain: at the true place it falls to the noise whatever the law. Two places take
 //! a pair of forces. An error of a channel is a place like any other: its column is that channel alone.
 
-use super::cell::{Cell, dot};
+use super::cell::{Cell, Eliminated, dot};
 use crate::control::Control;
 use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::{Data, DiagnosisError};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
-use crate::diagnosis::updating::noise_model::NoiseModel;
+use crate::diagnosis::residual::whitening::Whitening;
+use crate::diagnosis::updating::noise_model::Linearisation;
 use crate::effects::Leg;
 use crate::math::least_squares::solve_symmetric;
-use faer::{Mat, c64};
+use dashpot_numerics::product_transposed;
+use faer::{Mat, MatRef, c64};
 use std::sync::OnceLock;
+
+/// Squared change of a harmonic, in units of its noise, that all free parameters together make of one deviation each, below which they
+/// count as held: chance would bring ten times as much.
+const FELT: f64 = 0.1;
 
 /// The residual of a model seen from every place.
 #[derive(Debug, Clone)]
@@ -30,24 +36,13 @@ pub(crate) struct Screen {
     cells: Vec<Vec<Cell>>,
     /// Present values of the parameters that are common to all runs: of updating parameters in units of their prior deviations.
     reference: Vec<f64>,
+    /// Normal equations of these, nothing eliminated, once they are needed.
+    common: OnceLock<(Mat<f64>, Vec<f64>)>,
     /// How many of the last of them have no prior: those of laws of the whole structure.
     without_prior: usize,
     /// Squared residual per datum that even the best place leaves, at least 1: the parameters are not to explain what is
     /// no noise.
     misfit: f64,
-}
-
-/// Parameters that are free while places are looked at, by what they do to the fundamentals.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Freedom {
-    /// Values of the updating parameters in units of their prior deviations.
-    pub values: Vec<f64>,
-    /// Derivatives of the fundamentals by updating parameters, `[run][parameter][channel]`.
-    pub slopes: Vec<Vec<Vec<c64>>>,
-    /// The same by what differs from run to run.
-    pub own: Vec<Vec<Vec<c64>>>,
-    /// Values of those that are in the model already, `[run][parameter]`.
-    pub own_values: Vec<Vec<f64>>,
 }
 
 /// A law of the whole structure fitted beside the updating parameters.
@@ -71,14 +66,15 @@ pub(crate) struct Placing {
 }
 
 impl Screen {
-    /// Screens the residuals of `predictions` (of the model whose linear part `receptances` holds).
+    /// Screens the residuals of `predictions` (of the model whose linear part `receptances` holds), the parameters of `linearisation`
+    /// free beside the forces: what differs from run to run for each harmonic on its own.
     pub(crate) fn new(
         predictor: &Predictor,
         data: &Data,
         predictions: &[RunPrediction],
-        noise: &NoiseModel,
+        noise: &[Whitening],
         receptances: &mut Receptances,
-        freedom: &Freedom,
+        linearisation: &Linearisation,
         control: &Control,
     ) -> Result<Self, DiagnosisError> {
         let spots = Spot::all(predictor.structure(), data);
@@ -91,24 +87,24 @@ impl Screen {
         for (r, run) in data.runs.iter().enumerate() {
             let at = |h: usize| {
                 let prediction = &predictions[r].channels;
-                let of_run = freedom.own.get(r).filter(|_| h == 1);
+                let [common, own] = linearisation.of_harmonic(r, h);
+                let reference = linearisation.own_reference(r);
                 let in_model = |c: usize| -> c64 {
-                    let pairs = of_run.into_iter().flatten().zip(freedom.own_values.get(r).into_iter().flatten());
-                    pairs.fold(c64::new(0.0, 0.0), |sum, (slope, u)| sum + slope[c] * *u)
+                    own.iter().zip(&reference).fold(c64::new(0.0, 0.0), |sum, (slope, u)| sum + slope[c] * *u)
                 };
-                let e =
-                    noise.runs[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1] + in_model(c));
+                let e = noise[r].apply(h, |c| run.responses[c].measured[h - 1] - prediction[c][h - 1] + in_model(c));
                 let columns: Vec<Vec<c64>> = spots
                     .iter()
-                    .map(|spot| noise.runs[r].apply(h, |c| unit(receptances, r, data, h, c, spot, prediction)))
+                    .map(|spot| noise[r].apply(h, |c| unit(receptances, r, data, h, c, spot, prediction)))
                     .collect();
                 let products = columns.iter().map(|a| dot(a, &e)).collect();
                 let squares = columns.iter().map(|a| dot(a, a).re).collect();
-                let whitened = |all: &[Vec<Vec<c64>>]| -> Vec<Vec<c64>> {
-                    let own = all.get(r).filter(|_| h == 1);
-                    own.map_or_else(Vec::new, |list| list.iter().map(|s| noise.runs[r].apply(1, |c| s[c])).collect())
-                };
-                let (slopes, own) = (whitened(&freedom.slopes), whitened(&freedom.own));
+                let whitened =
+                    |list: &[Vec<c64>]| -> Vec<Vec<c64>> { list.iter().map(|s| noise[r].apply(h, |c| s[c])).collect() };
+                let (mut slopes, mut own) = (whitened(&common), whitened(&own));
+                if h > 1 && slopes.iter().chain(&own).map(|b| dot(b, b).re).sum::<f64>() < FELT {
+                    (slopes, own) = (Vec::new(), Vec::new());
+                }
                 Cell {
                     total: dot(&e, &e).re,
                     residual: e,
@@ -122,7 +118,8 @@ impl Screen {
             };
             cells.push((1..=run.harmonics).map(at).collect());
         }
-        let mut screen = Self { spots, cells, reference: freedom.values.clone(), without_prior: 0, misfit: 1.0 };
+        let reference = linearisation.updating.standardised();
+        let mut screen = Self { spots, cells, reference, common: OnceLock::new(), without_prior: 0, misfit: 1.0 };
         screen.adjust();
         Ok(screen)
     }
@@ -152,10 +149,11 @@ impl Screen {
     /// Standardised updating parameters that fit best beside the known `forces` at `spot`, `[run][harmonic]`.
     pub(crate) fn updated_beside(&self, spot: usize, forces: &[Vec<c64>]) -> Vec<f64> {
         let known = |(run, forces): (&Vec<Cell>, &Vec<c64>)| {
-            run.iter().zip(forces).take(1).map(|(cell, f)| cell.with_force(spot, *f)).collect()
+            run.iter().zip(forces).map(|(cell, f)| cell.with_force(spot, *f)).collect()
         };
         let cells = self.cells.iter().zip(forces).map(known).collect();
-        Self { cells, spots: Vec::new(), reference: self.reference.clone(), ..*self }.updated(&[])
+        Self { cells, spots: Vec::new(), reference: self.reference.clone(), common: OnceLock::new(), ..*self }
+            .updated(&[])
     }
 
     /// What the law of the whole structure leaves whose unit parameter changes the whitened fundamentals by `columns`, one list
@@ -175,7 +173,7 @@ impl Screen {
         };
         let cells = self.cells.iter().zip(columns).map(with_law).collect();
         let reference: Vec<f64> = self.reference.iter().copied().chain([0.0]).collect();
-        let beside = Self { cells, spots: Vec::new(), reference, without_prior: 1, ..*self };
+        let beside = Self { cells, spots: Vec::new(), reference, common: OnceLock::new(), without_prior: 1, ..*self };
         let freed = beside.freed(&[])?;
         let mut updated: Vec<f64> = beside.reference.iter().zip(&freed.change).map(|(u, change)| u + change).collect();
         let value = updated.pop()? * scale;
@@ -185,27 +183,28 @@ impl Screen {
     /// How the free force at one spot would change with the parameters that are free; `None` where none is.
     pub(crate) fn freedom(&self, spot: usize) -> Option<ForceFreedom> {
         let freed = self.freed(&[spot])?;
-        let of_run = |run: &Vec<Cell>| {
-            let cell = run.first()?;
+        let of = |cell: &Cell| {
             let square = cell.squares[spot];
-            if square <= 0.0 {
+            if square <= 0.0 || cell.is_held() {
                 return None;
             }
             let by = |b: &Vec<c64>| -dot(&cell.columns[spot], b) / square;
             let own: Vec<c64> = cell.own.iter().map(by).collect();
             let local = cell.eliminate(&[spot], self.misfit);
             let q = cell.slopes.len();
-            let follow =
-                |j: usize| own.iter().enumerate().fold(c64::new(0.0, 0.0), |s, (k, o)| s + *o * local.solved[(k, j)]);
-            let common = (0..q).map(|j| by(&cell.slopes[j]) - follow(j)).collect();
+            let solved = local.own_by_common();
+            let covariance = local.covariance();
+            let follow = |j: usize| -> c64 { own.iter().enumerate().map(|(k, o)| *o * solved[j][k]).sum() };
+            let common =
+                (0..q).map(|j| by(&cell.slopes[j]) - if own.is_empty() { 0.0.into() } else { follow(j) }).collect();
             let part = |z: c64, i: usize| if i == 0 { z.re } else { z.im };
             let spread = |i: usize, j: usize| {
-                let sum = |k: usize| (0..own.len()).map(|l| local.inverse[(k, l)] * part(own[l], j)).sum::<f64>();
+                let sum = |k: usize| (0..own.len()).map(|l| covariance[l][k] * part(own[l], j)).sum::<f64>();
                 (0..own.len()).map(|k| part(own[k], i) * sum(k)).sum::<f64>()
             };
-            Some(RunForceFreedom { common, own: [spread(0, 0), spread(0, 1), spread(1, 1)] })
+            Some(HarmonicForceFreedom { common, own: [spread(0, 0), spread(0, 1), spread(1, 1)] })
         };
-        let runs = self.cells.iter().map(of_run).collect();
+        let runs = self.cells.iter().map(|run| run.iter().map(of).collect()).collect();
         Some(ForceFreedom { runs, information: freed.normal })
     }
 
@@ -259,38 +258,61 @@ impl Screen {
     /// `(1 + sum B^H P B) du = sum B^H P e - u`.
     fn freed(&self, spots: &[usize]) -> Option<Freed> {
         let q = self.reference.len();
-        if self.cells.iter().flatten().all(|cell| cell.slopes.is_empty() && cell.own.is_empty()) {
+        if self.cells.iter().flatten().all(Cell::is_held) {
             return None;
         }
-        let mut normal = Mat::from_fn(q, q, |i, j| if i == j { self.prior_weight(i) } else { 0.0 });
-        let mut right: Vec<f64> = self.reference.iter().map(|u| -self.misfit * u).collect();
-        let (mut gain, mut solved) = (0.0, Vec::with_capacity(self.cells.len()));
+        let (gram, loads) = self.common.get_or_init(|| self.common_normal());
+        let mut right: Vec<f64> = self.reference.iter().zip(loads).map(|(u, b)| b - self.misfit * u).collect();
+        let (mut gain, mut stacked, mut locals) = (0.0, Vec::new(), Vec::with_capacity(self.cells.len()));
         for run in &self.cells {
-            let Some(local) = run.first().map(|cell| cell.eliminate(spots, self.misfit)) else { continue };
-            for (i, value) in right.iter_mut().enumerate().take(local.right.len()) {
-                *value += local.right[i];
-                (0..q).for_each(|j| normal[(i, j)] += local.normal[(i, j)]);
+            let eliminate = |cell: &Cell| (!cell.is_held()).then(|| cell.eliminate(spots, self.misfit));
+            let of_run: Vec<Option<Eliminated>> = run.iter().map(eliminate).collect();
+            for local in of_run.iter().flatten() {
+                let own = local.columns.len() / local.loads.len().max(1);
+                for (column, y) in local.columns.chunks_exact(own.max(1)).zip(&local.loads) {
+                    stacked.extend_from_slice(column);
+                    stacked.resize(stacked.len() + q - column.len(), 0.0);
+                    right.iter_mut().zip(column).for_each(|(b, x)| *b -= x * y);
+                }
+                gain += local.gain();
             }
-            gain += local.gain;
-            solved.push(local);
+            locals.push(of_run);
         }
+        let taken = MatRef::from_column_major_slice(&stacked, q, stacked.len() / q.max(1));
+        let taken = product_transposed(taken, taken);
+        let normal =
+            Mat::from_fn(q, q, |i, j| gram[(i, j)] - taken[(i, j)] + if i == j { self.prior_weight(i) } else { 0.0 });
         let column = Mat::from_fn(q, 1, |k, _| right[k]);
         let change = if q > 0 { solve_symmetric(normal.as_ref(), column.as_ref()).ok()? } else { Mat::zeros(0, 1) };
         let change: Vec<f64> = (0..q).map(|k| change[(k, 0)]).collect();
         gain += change.iter().zip(&right).map(|(x, b)| x * b).sum::<f64>();
-        let own = solved.iter().map(|local| local.own(&change)).collect();
-        Some(Freed { change, own, gain, normal })
+        Some(Freed { change, locals, gain, normal })
+    }
+
+    /// Matrix and right side of the normal equations of the common parameters, nothing eliminated and without priors.
+    fn common_normal(&self) -> (Mat<f64>, Vec<f64>) {
+        let q = self.reference.len();
+        let (mut normal, mut right) = (Mat::<f64>::zeros(q, q), vec![0.0; q]);
+        for cell in self.cells.iter().flatten().filter(|cell| !cell.slopes.is_empty()) {
+            let gram = cell.gram();
+            for (j, b) in cell.slopes.iter().enumerate() {
+                right[j] += dot(b, &cell.residual).re;
+                (0..cell.slopes.len()).for_each(|i| normal[(i, j)] += gram[(i, j)]);
+            }
+        }
+        (normal, right)
     }
 
     /// The free force of each spot of a placing, `[spot][run][harmonic]`, the others there too.
     pub(crate) fn forces(&self, spots: &[usize]) -> Vec<Vec<Vec<FreeForce>>> {
         let freed = self.freed(spots);
-        let (change, all) = freed.map_or_else(Default::default, |freed| (freed.change, freed.own));
+        let change = freed.as_ref().map_or(&[][..], |freed| &freed.change);
         let mut forces = vec![Vec::with_capacity(self.cells.len()); spots.len()];
         for (r, run) in self.cells.iter().enumerate() {
-            let own = all.get(r).map_or(&[][..], Vec::as_slice);
-            let at = |cell: &Cell| cell.corrected(&change, own).solve(spots);
-            let solved: Vec<Vec<FreeForce>> = run.iter().map(at).collect();
+            let local = |k: usize| freed.as_ref().and_then(|freed| freed.locals[r][k].as_ref());
+            let own = |k: usize| local(k).map_or_else(Vec::new, |local| local.own(change));
+            let at = |(k, cell): (usize, &Cell)| cell.corrected(change, &own(k)).solve(spots);
+            let solved: Vec<Vec<FreeForce>> = run.iter().enumerate().map(at).collect();
             for (k, list) in forces.iter_mut().enumerate() {
                 list.push(solved.iter().map(|cell| cell[k]).collect());
             }
@@ -334,8 +356,8 @@ fn unit(
 struct Freed {
     /// Of the common ones, in units of their prior deviations.
     change: Vec<f64>,
-    /// Of those of each run.
-    own: Vec<Vec<f64>>,
+    /// What free forces and own parameters take off their normal equations, `[run][harmonic]`.
+    locals: Vec<Vec<Option<Eliminated>>>,
     /// By how much they lower the squared residual with its prior.
     gain: f64,
     /// Normal matrix of the common ones, free forces and own ones eliminated.
@@ -345,15 +367,15 @@ struct Freed {
 /// How a free force would change with parameters that are free.
 #[derive(Debug, Clone)]
 pub(crate) struct ForceFreedom {
-    /// At the fundamental of every run; `None` where the place is not seen.
-    pub runs: Vec<Option<RunForceFreedom>>,
+    /// `[run][harmonic]`; `None` where the place is not seen or nothing is free.
+    pub runs: Vec<Vec<Option<HarmonicForceFreedom>>>,
     /// Information on the common parameters, free forces eliminated, q x q.
     pub information: Mat<f64>,
 }
 
-/// The same in one run.
+/// The same at one harmonic of one run.
 #[derive(Debug, Clone)]
-pub(crate) struct RunForceFreedom {
+pub(crate) struct HarmonicForceFreedom {
     /// Derivatives by the standardised common parameters, N.
     pub common: Vec<c64>,
     /// Covariance by the run's own parameters: of the real part, of both, of the imaginary part, N^2.

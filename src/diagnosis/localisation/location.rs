@@ -5,6 +5,7 @@ use crate::diagnosis::residual::data::{ChannelData, Data, DiagnosisError, RunDat
 use crate::diagnosis::residual::prediction::{FINAL, Predictor};
 use crate::effects::{Leg, Place, Source};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce};
+use crate::response::sensitivity::{Unknown, pseudo_force};
 use crate::structure::Structure;
 use faer::{Mat, c64};
 use std::collections::BTreeMap;
@@ -102,6 +103,24 @@ impl<'a> Receptances<'a> {
         };
         let logs: Vec<f64> = (1..=run.harmonics).map(mobility).filter(|x| x.is_finite()).collect();
         if logs.is_empty() { 0.0 } else { (-logs.iter().sum::<f64>() / logs.len() as f64).exp() }
+    }
+
+    /// Relative change of the responses of run `r` at harmonic `h` to a force at `leg` for a relative change of all stiffness by 1: how
+    /// much the response there depends on frequencies of modes that are known no better than the model.
+    pub(crate) fn sensitivity_to_stiffness(&self, r: usize, run: &RunData, h: usize, leg: Leg) -> f64 {
+        let omega = h as f64 * run.omega;
+        let n = self.predictor.structure().len();
+        let field: Vec<c64> = (0..n).map(|i| leg.relative(|j| self.entry(r, h, i, j))).collect();
+        let force = pseudo_force(self.predictor.run(r), &[], Unknown::Stiffness, &field, omega).unwrap_or_default();
+        let (mut moved, mut size) = (0.0, 0.0);
+        for &c in &run.alive {
+            let channel = &run.responses[c];
+            let by: c64 = force.iter().enumerate().map(|(i, f)| *f * self.entry(r, h, i, channel.dof)).sum();
+            let weight = (channel.from_displacement(omega).norm() / run.scale(c)).powi(2);
+            moved += by.norm_sqr() * weight;
+            size += field[channel.dof].norm_sqr() * weight;
+        }
+        if size > 0.0 { (moved / size).sqrt() } else { 0.0 }
     }
 
     /// Recorded amplitude of `channel` for a unit force on the structure at `leg` (its law feels `-1`).

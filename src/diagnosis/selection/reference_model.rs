@@ -3,13 +3,14 @@
 use super::short_list::is_real;
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
-use crate::diagnosis::residual::data::{Data, DiagnosisError};
+use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::residual::transfers::transfers;
-use crate::diagnosis::residual::whitening::Whitening;
+use crate::diagnosis::residual::whitening::{Transfers, Whitening};
 use crate::diagnosis::result::{Early, Step};
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::updating::curvature::{curvature, unpredictable};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::Source;
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square, sum_of_squares};
@@ -54,16 +55,52 @@ impl<'a> ReferenceModel<'a> {
 
     /// Noise of the residual of a model with `effects` and its predictions.
     pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
-        let runs = self.data.runs.iter().enumerate();
-        let runs: Result<Vec<Whitening>, DiagnosisError> = runs
-            .map(|(r, run)| {
-                let file = format!("number {}", run.index + 1);
-                let failed = |reason| DiagnosisError::Response { file, reason };
-                let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
-                Ok(Whitening::new(run, &a, &of[r].truncation))
-            })
-            .collect();
-        Ok(NoiseModel::new(runs?, &self.linearisation))
+        let whitening = |(r, run): (usize, &RunData), a: &Transfers| Whitening::new(run, a, &of[r].truncation);
+        Ok(NoiseModel::new(self.whitened_runs(effects, whitening)?, &self.linearisation))
+    }
+
+    /// The same where higher harmonics of which the model can say nothing count for nothing.
+    pub(super) fn noise_of_predictable(
+        &self,
+        effects: &[Source],
+        of: &[RunPrediction],
+    ) -> Result<NoiseModel, DiagnosisError> {
+        let errors = unpredictable(self.data, &self.linearisation, of);
+        Ok(NoiseModel::new(self.noise_beside(effects, of, &errors)?, &self.linearisation))
+    }
+
+    /// Noise of the residual of each run in which places are looked for, with what derivatives by the model leave of its higher
+    /// harmonics; nothing of it eliminated.
+    pub(super) fn noise_of_places(
+        &self,
+        effects: &[Source],
+        of: &[RunPrediction],
+    ) -> Result<Vec<Whitening>, DiagnosisError> {
+        self.noise_beside(effects, of, &curvature(self.data, &self.linearisation, of))
+    }
+
+    /// Noise of the residual of each run with `errors` of the prediction beside those of truncation, `[run][channel][harmonic - 1]`.
+    fn noise_beside(
+        &self,
+        effects: &[Source],
+        of: &[RunPrediction],
+        errors: &[Vec<Vec<f64>>],
+    ) -> Result<Vec<Whitening>, DiagnosisError> {
+        self.whitened_runs(effects, |(r, run), a| Whitening::new(run, a, &quadrature(&of[r].truncation, &errors[r])))
+    }
+
+    /// What `whitening` makes of each run and the response of its channels to its forces.
+    fn whitened_runs(
+        &self,
+        effects: &[Source],
+        whitening: impl Fn((usize, &RunData), &Transfers) -> Whitening,
+    ) -> Result<Vec<Whitening>, DiagnosisError> {
+        let of = |(r, run): (usize, &RunData)| {
+            let failed = |reason| DiagnosisError::Response { file: format!("number {}", run.index + 1), reason };
+            let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
+            Ok(whitening((r, run), &a))
+        };
+        self.data.runs.iter().enumerate().map(of).collect()
     }
 
     /// What fits on the response are made with.
@@ -150,6 +187,13 @@ impl<'a> ReferenceModel<'a> {
         }
         root_mean_square(&floors)
     }
+}
+
+/// Roots of the sums of squares, entry by entry; what `a` has no entries for is 0.
+fn quadrature(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let at = |c: usize, h: usize| a.get(c).and_then(|list| list.get(h)).copied().unwrap_or(0.0);
+    let channel = |(c, list): (usize, &Vec<f64>)| list.iter().enumerate().map(|(h, e)| e.hypot(at(c, h))).collect();
+    b.iter().enumerate().map(channel).collect()
 }
 
 /// Squared residual per datum of the best fit, at least 1.

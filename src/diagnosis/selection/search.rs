@@ -4,12 +4,13 @@ use super::short_list::{Breadth, hopeless, telling};
 use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
 use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
-use crate::diagnosis::localisation::free_force::{Freedom, Placing, Screen};
+use crate::diagnosis::localisation::free_force::{Placing, Screen};
 use crate::diagnosis::localisation::location::{Receptances, Spot};
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::updating::modal_expansion::DETUNING;
 use crate::effects::{Place, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
@@ -55,14 +56,16 @@ impl ReferenceModel<'_> {
             None => self.predictions.clone(),
             Some(fit) => self.estimator().predict(effects, &FINAL, &fit.starts)?,
         };
-        let (data, noise) = (self.data, &*self.noise);
-        let freedom = Freedom {
-            values: self.linearisation.updating.standardised(),
-            slopes: self.linearisation.fundamentals(),
-            own: self.linearisation.own_fundamentals(data),
-            own_values: (0..data.runs.len()).map(|r| self.linearisation.own_reference(r)).collect(),
-        };
-        let screen = Screen::new(&self.predictor, data, &predictions, noise, &mut receptances, &freedom, self.control)?;
+        let noise = self.noise_of_places(effects, &predictions)?;
+        let screen = Screen::new(
+            &self.predictor,
+            self.data,
+            &predictions,
+            &noise,
+            &mut receptances,
+            &self.linearisation,
+            self.control,
+        )?;
         Ok(View { screen, receptances, predictions, regressed: RegressedSpots::new() })
     }
 
@@ -170,7 +173,10 @@ impl ReferenceModel<'_> {
 
     /// Free forces of the spots of a placing, and the motion they imply; their receptances are there.
     pub(crate) fn free(&self, view: &View, spots: &[usize]) -> (Vec<Vec<Vec<FreeForce>>>, Fields) {
-        let forces = view.screen.forces(spots);
+        let mut forces = view.screen.forces(spots);
+        for (&s, list) in spots.iter().zip(&mut forces) {
+            self.doubt_harmonics(view, s, list);
+        }
         let n = self.predictor.structure().len();
         let field = |(r, run): (usize, &crate::diagnosis::residual::data::RunData)| {
             let response = &view.predictions[r].response;
@@ -184,13 +190,32 @@ impl ReferenceModel<'_> {
                     }
                 }
             }
-            if let Some(Some(expansion)) = self.linearisation.expansions.get(r) {
-                expansion.correct(run, field.col_as_slice_mut(0));
+            for (k, expansion) in self.linearisation.expansions.get(r).into_iter().flatten().enumerate() {
+                if let Some(expansion) = expansion {
+                    expansion.correct(run, k + 1, field.col_as_slice_mut(k));
+                }
             }
             field
         };
         let fields: Vec<Mat<c64>> = self.data.runs.iter().enumerate().map(field).collect();
         (forces, fields)
+    }
+
+    /// Weights of the harmonics of free forces at spot `s` with what is known of the receptance there: resonances above the band are
+    /// where the model says to some per cent, so that a force of the size of a harmonic, the fundamental over the order, is known to
+    /// that share of it only.
+    fn doubt_harmonics(&self, view: &View, s: usize, forces: &mut [Vec<FreeForce>]) {
+        let Spot::Leg(leg) = view.screen.spots[s] else { return };
+        if self.linearisation.is_empty() {
+            return;
+        }
+        for (r, (run, list)) in self.data.runs.iter().zip(forces).enumerate() {
+            let size = list.first().map_or(0.0, |first| first.value.norm());
+            for (k, free) in list.iter_mut().enumerate().skip(1).filter(|(_, free)| free.weight > 0.0) {
+                let share = DETUNING * view.receptances.sensitivity_to_stiffness(r, run, k + 1, leg);
+                free.weight = 1.0 / (1.0 / free.weight + (share.min(1.0) * size / (k + 1) as f64).powi(2));
+            }
+        }
     }
 
     /// The free `forces` of spot `s` with the motion `fields` that they imply.

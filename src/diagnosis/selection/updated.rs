@@ -66,7 +66,7 @@ impl<'a> ReferenceModel<'a> {
             reference.estimator().predict(effects, settings, starts)?
         };
         reference.linearisation = Arc::new(reference.linearised(updating, effects, &predictions));
-        reference.noise = Arc::new(reference.noise_of(effects, &predictions)?);
+        reference.noise = Arc::new(reference.noise_of_predictable(effects, &predictions)?);
         Ok(reference)
     }
 
@@ -99,11 +99,17 @@ impl<'a> ReferenceModel<'a> {
             }
             (slopes, stiffness)
         };
-        let (common, stiffness): (Vec<RunSlopes>, Vec<_>) =
+        let (mut common, stiffness): (Vec<RunSlopes>, Vec<_>) =
             self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
+        let at_motion = if seen.is_some() { common.clone() } else { Vec::new() };
+        // Beside effects the model is fitted on the response itself: what harmonics tell of it is told there.
+        for slopes in common.iter_mut().filter(|_| seen.is_some()) {
+            let of_model = slopes.iter_mut().zip(&updating.parameters).filter(|(_, parameter)| parameter.is_of_model());
+            of_model.flat_map(|(slope, _)| slope).for_each(|channel| channel[1..].fill(c64::new(0.0, 0.0)));
+        }
         let leverage = if seen.is_some() { leverage(self.data, updating, &common, predictions) } else { Vec::new() };
         let expansions = seen.map_or_else(Vec::new, |seen| seen.expansions);
-        Linearisation { updating: updating.clone(), common, stiffness, expansions, leverage, amplitudes }
+        Linearisation { updating: updating.clone(), common, at_motion, stiffness, expansions, leverage, amplitudes }
     }
 
     /// Derivatives of the model with `effects` at its own motion times the factor that fits the sensors best.

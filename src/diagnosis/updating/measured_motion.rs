@@ -10,7 +10,7 @@
 use super::modal_expansion::ModalExpansion;
 use crate::control::Control;
 use crate::diagnosis::localisation::location::Receptances;
-use crate::diagnosis::residual::data::{ChannelData, Data};
+use crate::diagnosis::residual::data::{Data, RunData};
 use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::effects::Source;
 use crate::response::sensitivity::{Unknown, pseudo_force};
@@ -21,10 +21,10 @@ pub(crate) struct MeasuredMotion<'a> {
     predictor: &'a Predictor,
     data: &'a Data,
     receptances: Receptances<'a>,
-    /// Fundamental displacement by DOF, one list a run, m.
-    fields: Vec<Vec<c64>>,
-    /// What made them of the model's own motion.
-    pub expansions: Vec<Option<ModalExpansion>>,
+    /// Displacement by DOF, `[run][harmonic - 1][dof]`, m.
+    fields: Vec<Vec<Vec<c64>>>,
+    /// What made them of the model's own motion, `[run][harmonic - 1]`.
+    pub expansions: Vec<Vec<Option<ModalExpansion>>>,
 }
 
 impl<'a> MeasuredMotion<'a> {
@@ -41,18 +41,19 @@ impl<'a> MeasuredMotion<'a> {
         }
         let expansions = ModalExpansion::of_runs(predictor, data, predictions);
         let n = predictor.structure().len();
-        let field = |(r, prediction): (usize, &RunPrediction)| {
-            let mut field: Vec<c64> = (0..n).map(|dof| prediction.response.amplitude(dof, 1)).collect();
-            if let Some(expansion) = &expansions[r] {
-                expansion.correct(&data.runs[r], &mut field);
+        let field = |r: usize, h: usize| {
+            let mut field: Vec<c64> = (0..n).map(|dof| predictions[r].response.amplitude(dof, h)).collect();
+            if let Some(expansion) = &expansions[r][h - 1] {
+                expansion.correct(&data.runs[r], h, &mut field);
             }
             field
         };
-        let fields = predictions.iter().enumerate().map(field).collect();
+        let of_run = |(r, run): (usize, &RunData)| (1..=run.harmonics).map(|h| field(r, h)).collect();
+        let fields = data.runs.iter().enumerate().map(of_run).collect();
         Some(Self { predictor, data, receptances, fields, expansions })
     }
 
-    /// Derivatives of the recorded fundamentals of run `r` by sums of unknowns with factors, `[sum][channel][harmonic - 1]`.
+    /// Derivatives of the recorded amplitudes of run `r` by sums of unknowns with factors, `[sum][channel][harmonic - 1]`.
     pub(crate) fn slopes(&self, r: usize, sums: &[Vec<(Unknown, f64)>]) -> Vec<Vec<Vec<c64>>> {
         sums.iter().map(|sum| self.slope(r, self.predictor.known(), sum)).collect()
     }
@@ -60,28 +61,32 @@ impl<'a> MeasuredMotion<'a> {
     /// The same by one sum, whose sources are among `sources`, `[channel][harmonic - 1]`.
     pub(crate) fn slope(&self, r: usize, sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<Vec<c64>> {
         let run = &self.data.runs[r];
-        let (x, w) = (&self.fields[r], run.omega);
+        let mut slope = vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
+        for h in 1..=run.harmonics {
+            let force = self.force((r, h), sources, sum);
+            for (slope, channel) in slope.iter_mut().zip(&run.responses) {
+                let moved = |&(dof, f): &(usize, c64)| self.receptances.entry(r, h, dof, channel.dof) * f;
+                slope[h - 1] = force.iter().map(moved).sum::<c64>() * channel.from_displacement(h as f64 * run.omega);
+            }
+        }
+        slope
+    }
+
+    /// The force `-dZ X` (N) of a sum at harmonic `h` of run `r`, at the DOFs at which it acts: a part of the structure acts at few.
+    fn force(&self, (r, h): (usize, usize), sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<(usize, c64)> {
+        let run = &self.data.runs[r];
+        let (x, w) = (&self.fields[r][h - 1], h as f64 * run.omega);
         let mut force = vec![c64::new(0.0, 0.0); x.len()];
         for (unknown, factor) in sum {
             if let Unknown::ForceScale(channel) = *unknown {
                 let channel = &run.forces[channel];
-                force[channel.dof] += channel.measured[0] * *factor;
+                force[channel.dof] += channel.measured[h - 1] * *factor;
                 continue;
             }
             let own = pseudo_force(self.predictor.run(r), sources, *unknown, x, w);
             force.iter_mut().zip(own.unwrap_or_default()).for_each(|(f, own)| *f += own * *factor);
         }
-        // A part of the structure acts at few of its DOFs.
-        let acting: Vec<(usize, c64)> =
-            force.into_iter().enumerate().filter(|(_, f)| *f != c64::new(0.0, 0.0)).collect();
-        let channel = |channel: &ChannelData| {
-            let moved = |&(dof, f): &(usize, c64)| self.receptances.entry(r, 1, dof, channel.dof) * f;
-            let sum: c64 = acting.iter().map(moved).sum();
-            let mut slope = vec![c64::new(0.0, 0.0); run.harmonics];
-            slope[0] = sum * channel.from_displacement(w);
-            slope
-        };
-        run.responses.iter().map(channel).collect()
+        force.into_iter().enumerate().filter(|(_, f)| *f != c64::new(0.0, 0.0)).collect()
     }
 }
 
@@ -94,7 +99,7 @@ mod tests {
     use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
     use crate::effects::{Effect, Place, Source};
     use crate::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
-    use crate::response::harmonic_balance::{Excitation, ForwardModel};
+    use crate::response::harmonic_balance::{Excitation, ForwardModel, HarmonicForce};
     use crate::structure::chain::ChainParameters;
     use crate::structure::{Part, Structure};
     use faer::Mat;
@@ -107,24 +112,27 @@ mod tests {
     }
 
     /// A light structure whose ground spring is 5 % stiffer than stated, driven through its first resonance: the change of
-    /// the response is many times the response, yet the derivative at the measured motion gives it.
+    /// the response is many times the response, yet the derivative at the measured motion gives it, also at the second harmonic.
     #[test]
     fn the_change_of_the_response_is_linear_at_the_measured_motion() {
         let known = [Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[0.5])];
         let (stated, truth) = (chain(1.0), ForwardModel::new(&chain(1.05), &known).unwrap());
-        let one = |name: usize, quantity, dof: usize, amplitude: c64| ChannelFit {
+        let force = [c64::new(1.0, 0.0), c64::new(0.2, 0.1)];
+        let one = |name: usize, quantity, dof: usize, amplitudes: [c64; 2]| ChannelFit {
             channel: Channel { quantity, dof, label: format!("{}", name + 1) },
             offset: 0.0,
             slope: 0.0,
-            amplitudes: vec![amplitude],
-            covariance: Mat::zeros(2, 2),
+            amplitudes: amplitudes.to_vec(),
+            covariance: Mat::zeros(4, 4),
             noise: 0.0,
         };
         let run = |omega: f64| {
-            let excitation = Excitation::sine(omega, 2, c64::new(1.0, 0.0));
+            let forces = vec![HarmonicForce { dof: 2, mean: 0.0, harmonics: force.to_vec() }];
+            let excitation = Excitation { omega, forces };
             let response = truth.at(omega).respond(&known, &excitation, &FINAL, None, &Control::unattended()).unwrap();
-            let mut channels = vec![one(2, Quantity::Force, 2, c64::new(1.0, 0.0))];
-            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, d, response.amplitude(d, 1))));
+            let mut channels = vec![one(2, Quantity::Force, 2, force)];
+            let motion = |d: usize| [1, 2].map(|h| response.amplitude(d, h));
+            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, d, motion(d))));
             Run::from_harmonics(
                 format!("{omega}"),
                 None,
@@ -147,10 +155,10 @@ mod tests {
         let sum = updating.unknowns(k, &known, &data.runs[0]);
         for (r, run) in data.runs.iter().enumerate() {
             let slope = seen.slope(r, &known, &sum);
-            for c in 0..3 {
-                let change = run.responses[c].measured[0] - predictions[r].channels[c][0];
-                let off = (change - slope[c][0] * 0.05).norm();
-                assert!(off < 0.02 * change.norm(), "run {r} channel {c}: {off} of {}", change.norm());
+            for (c, h) in (0..3).flat_map(|c| [(c, 0), (c, 1)]) {
+                let change = run.responses[c].measured[h] - predictions[r].channels[c][h];
+                let off = (change - slope[c][h] * 0.05).norm();
+                assert!(off < 0.02 * change.norm(), "run {r} channel {c} {h}: {off} of {}", change.norm());
             }
         }
     }

@@ -19,9 +19,9 @@ use faer::{Mat, c64};
 /// Error of the gain of a sensor that an expansion allows for, relative.
 const GAIN: f64 = 0.01;
 /// Detuning of a mode, as a share of its squared frequency, within which it counts as resonant: what models are off by.
-const DETUNING: f64 = 0.03;
+pub(crate) const DETUNING: f64 = 0.03;
 
-/// Gains of the expansion of one run.
+/// Gains of the expansion of one harmonic of one run.
 #[derive(Debug, Clone)]
 pub(crate) struct ModalExpansion {
     /// `C S^T (S C S^T + R)^-1`, n x sensors.
@@ -29,18 +29,26 @@ pub(crate) struct ModalExpansion {
 }
 
 impl ModalExpansion {
-    /// Of every run of `data` for the model of `predictor` with its `predictions`; none for a run whose model is singular.
-    pub(crate) fn of_runs(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<Option<Self>> {
-        let runs = data.runs.iter().zip(predictions).enumerate();
-        runs.map(|(r, (run, prediction))| Self::new(predictor, r, run, prediction)).collect()
+    /// Of every run and harmonic of `data` for the model of `predictor` with its `predictions`, `[run][harmonic - 1]`; none where
+    /// the model is singular.
+    pub(crate) fn of_runs(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<Vec<Option<Self>>> {
+        let of_run = |(r, (run, prediction)): (usize, (&RunData, &RunPrediction))| {
+            (1..=run.harmonics).map(|h| Self::new(predictor, (r, h), run, prediction)).collect()
+        };
+        data.runs.iter().zip(predictions).enumerate().map(of_run).collect()
     }
 
-    /// Of run number `r`; none where its model is singular or agrees with the sensors.
-    pub(crate) fn new(predictor: &Predictor, r: usize, run: &RunData, prediction: &RunPrediction) -> Option<Self> {
+    /// Of harmonic `h` of run number `r`; none where its model is singular or agrees with the sensors.
+    pub(crate) fn new(
+        predictor: &Predictor,
+        (r, h): (usize, usize),
+        run: &RunData,
+        prediction: &RunPrediction,
+    ) -> Option<Self> {
         let basis = predictor.run(r).linear().basis();
         let dofs: Vec<usize> = run.alive.iter().map(|&c| run.responses[c].dof).collect();
         let n = predictor.structure().len();
-        let square = run.omega * run.omega;
+        let square = (h as f64 * run.omega).powi(2);
         let mut spread = Mat::<f64>::zeros(n, dofs.len());
         for m in 0..basis.len() {
             let (own, shape) = (basis.square(m), basis.shape(m));
@@ -52,40 +60,40 @@ impl ModalExpansion {
         }
         let own: f64 = dofs.iter().enumerate().map(|(k, &dof)| spread[(dof, k)]).sum();
         let missing: f64 =
-            differences(run, |dof| prediction.response.amplitude(dof, 1)).iter().map(c64::norm_sqr).sum();
+            differences(run, h, |dof| prediction.response.amplitude(dof, h)).iter().map(c64::norm_sqr).sum();
         if own <= 0.0 || missing <= 0.0 {
             return None;
         }
         let scale = missing / own;
         let seen = Mat::from_fn(dofs.len(), dofs.len(), |i, k| {
-            scale * spread[(dofs[i], k)] + if i == k { variance(run, run.alive[i]) } else { 0.0 }
+            scale * spread[(dofs[i], k)] + if i == k { variance(run, run.alive[i], h) } else { 0.0 }
         });
         let factor = Cholesky::new(seen.as_ref())?;
         let transposed = Mat::from_fn(dofs.len(), n, |k, i| scale * spread[(i, k)]);
         Some(Self { gain: factor.solve(transposed.as_ref()).transpose().to_owned() })
     }
 
-    /// Corrects the fundamental `field` of `run`, m by DOF.
-    pub(crate) fn correct(&self, run: &RunData, field: &mut [c64]) {
-        for (k, difference) in differences(run, |dof| field[dof]).into_iter().enumerate() {
+    /// Corrects the `field` of harmonic `h` of `run`, m by DOF.
+    pub(crate) fn correct(&self, run: &RunData, h: usize, field: &mut [c64]) {
+        for (k, difference) in differences(run, h, |dof| field[dof]).into_iter().enumerate() {
             field.iter_mut().zip(self.gain.col_as_slice(k)).for_each(|(x, g)| *x += difference * *g);
         }
     }
 }
 
-/// What the sensors that are alive show beyond the motion `field`, m.
-fn differences(run: &RunData, field: impl Fn(usize) -> c64) -> Vec<c64> {
-    run.alive.iter().map(|&c| displacement(run, &run.responses[c]) - field(run.responses[c].dof)).collect()
+/// What the sensors that are alive show at harmonic `h` beyond the motion `field`, m.
+fn differences(run: &RunData, h: usize, field: impl Fn(usize) -> c64) -> Vec<c64> {
+    run.alive.iter().map(|&c| displacement(run, &run.responses[c], h) - field(run.responses[c].dof)).collect()
 }
 
-/// Measured displacement, m.
-fn displacement(run: &RunData, channel: &ChannelData) -> c64 {
-    channel.measured[0] / channel.from_displacement(run.omega)
+/// Measured displacement at harmonic `h`, m.
+fn displacement(run: &RunData, channel: &ChannelData, h: usize) -> c64 {
+    channel.measured[h - 1] / channel.from_displacement(h as f64 * run.omega)
 }
 
-/// Variance of a measured displacement, m^2.
-fn variance(run: &RunData, c: usize) -> f64 {
+/// Variance of a measured displacement at harmonic `h`, m^2.
+fn variance(run: &RunData, c: usize, h: usize) -> f64 {
     let channel = &run.responses[c];
-    let noise = channel.deviation[0] / channel.from_displacement(run.omega).norm();
-    noise * noise + GAIN * GAIN * displacement(run, channel).norm_sqr()
+    let noise = channel.deviation[h - 1] / channel.from_displacement(h as f64 * run.omega).norm();
+    noise * noise + GAIN * GAIN * displacement(run, channel, h).norm_sqr()
 }

@@ -12,7 +12,7 @@
 use super::marginalisation::Marginalisation;
 use super::modal_expansion::ModalExpansion;
 use super::parameters::{Scales, Updating, UpdatingParameter};
-use crate::diagnosis::residual::data::{ChannelData, Data, RunData};
+use crate::diagnosis::residual::data::{ChannelData, RunData};
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
 use crate::diagnosis::residual::whitening::Whitening;
 use faer::c64;
@@ -25,12 +25,15 @@ pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
 pub(crate) struct Linearisation {
     /// Updating parameters, their values at the reference, and the scales.
     pub updating: Updating,
-    /// By updating parameters (of unit logarithm or second), one list a run.
+    /// By updating parameters (of unit logarithm or second), one list a run; of fundamentals alone where they are taken at the
+    /// measured motion.
     pub common: Vec<RunSlopes>,
+    /// The same at the measured motion with the higher harmonics, which tell places; none where derivatives are of the model itself.
+    pub at_motion: Vec<RunSlopes>,
     /// By the relative stiffness of the run, one list of `[channel][harmonic - 1]` a run.
     pub stiffness: Vec<Vec<Vec<c64>>>,
-    /// What turns a motion into the one that the sensors show, one a run; none where derivatives are of the model itself.
-    pub(crate) expansions: Vec<Option<ModalExpansion>>,
+    /// What turns a motion into the one that the sensors show, `[run][harmonic - 1]`; none where derivatives are of the model itself.
+    pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
     /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
@@ -44,27 +47,17 @@ impl Linearisation {
         self.common.is_empty()
     }
 
-    /// Derivatives of the fundamentals by the standardised parameters, `[run][parameter][channel]`.
-    pub(crate) fn fundamentals(&self) -> Vec<Vec<Vec<c64>>> {
-        let of_run = |slopes: &RunSlopes| {
-            let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
-                slope.iter().map(|channel| channel[0] * self.updating.prior(k)).collect()
-            };
-            slopes.iter().enumerate().map(of).collect()
+    /// Derivatives of harmonic `h` of run `r` by the standardised parameters that are common to all runs, then by what differs from run
+    /// to run, `[parameter][channel]`; none where nothing is free.
+    pub(crate) fn of_harmonic(&self, r: usize, h: usize) -> [Vec<Vec<c64>>; 2] {
+        let Some(common) = self.at_motion.get(r).or_else(|| self.common.get(r)) else {
+            return [Vec::new(), Vec::new()];
         };
-        self.common.iter().map(of_run).collect()
-    }
-
-    /// The same by what differs from run to run.
-    pub(crate) fn own_fundamentals(&self, data: &Data) -> Vec<Vec<Vec<c64>>> {
-        if self.is_empty() {
-            return Vec::new();
-        }
-        let of_run = |(r, run): (usize, &RunData)| {
-            let column = |k: usize| (0..run.responses.len()).map(|c| self.own(r, k, c, 1)).collect();
-            (0..OWN).map(column).collect()
+        let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
+            slope.iter().map(|channel| channel[h - 1] * self.updating.prior(k)).collect()
         };
-        data.runs.iter().enumerate().map(of_run).collect()
+        let column = |k: usize| (0..self.amplitudes[r].len()).map(|c| self.own(r, k, c, h)).collect();
+        [common.iter().enumerate().map(of).collect(), (0..OWN).map(column).collect()]
     }
 
     /// Own parameters of run `r` that are in the model already, standardised.

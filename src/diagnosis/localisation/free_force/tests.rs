@@ -19,16 +19,16 @@ use rand_chacha::ChaCha8Rng;
 use std::sync::{Arc, OnceLock};
 
 const RUNS: usize = 3;
-const HARMONICS: usize = 2;
+const HARMONICS: usize = 3;
 const CHANNELS: usize = 4;
 const SPOTS: usize = 5;
-/// Updating parameters, and parameters of each run.
+/// Updating parameters, and parameters of each run, which are another number for each harmonic.
 const COMMON: usize = 2;
 const OWN: usize = 2;
 const REFERENCE: [f64; COMMON] = [0.4, -0.7];
 const MISFIT: f64 = 2.5;
 
-/// A screen of random residuals and columns; parameters are free at the fundamental if they are to be.
+/// A screen of random residuals and columns; parameters are free at all harmonics but the last if they are to be.
 fn screen(with_parameters: bool) -> Screen {
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let mut list = |scale: f64| -> Vec<c64> {
@@ -38,7 +38,7 @@ fn screen(with_parameters: bool) -> Screen {
     let mut cell = |h: usize| {
         let residual = list(3.0);
         let columns: Vec<Vec<c64>> = (0..SPOTS).map(|_| list(1.0)).collect();
-        let free = with_parameters && h == 0;
+        let free = with_parameters && h + 1 < HARMONICS;
         let slopes = if free { (0..COMMON).map(|_| list(0.8)).collect() } else { Vec::new() };
         let own = if free { (0..OWN).map(|_| list(0.6)).collect() } else { Vec::new() };
         Cell {
@@ -55,7 +55,7 @@ fn screen(with_parameters: bool) -> Screen {
     let cells = (0..RUNS).map(|_| (0..HARMONICS).map(&mut cell).collect()).collect();
     let spots = (0..SPOTS).map(|first| Spot::Leg(Leg { first, second: None })).collect();
     let reference = if with_parameters { REFERENCE.to_vec() } else { Vec::new() };
-    Screen { spots, cells, reference, without_prior: 0, misfit: MISFIT }
+    Screen { spots, cells, reference, common: OnceLock::new(), without_prior: 0, misfit: MISFIT }
 }
 
 /// All rows at once: real and imaginary parts of every cell, priors behind; unknown are the changes of the common parameters, those
@@ -71,15 +71,18 @@ impl Dense {
     fn new(screen: &Screen, spots: &[usize]) -> Self {
         let (common, own) = if screen.reference.is_empty() { (0, 0) } else { (COMMON, OWN) };
         let cells = RUNS * HARMONICS;
-        let unknowns = common + RUNS * own + 2 * cells * spots.len();
-        let rows = 2 * CHANNELS * cells + common + RUNS * own;
+        let unknowns = common + cells * own + 2 * cells * spots.len();
+        let rows = 2 * CHANNELS * cells + common + cells * own;
         let mut dense = Self { matrix: DMatrix::zeros(rows, unknowns), right: DVector::zeros(rows), common, own };
         for (r, run) in screen.cells.iter().enumerate() {
             for (h, cell) in run.iter().enumerate() {
                 let row = 2 * CHANNELS * (r * HARMONICS + h);
                 dense.place(row, None, &cell.residual);
                 cell.slopes.iter().enumerate().for_each(|(k, b)| dense.place(row, Some(k), b));
-                cell.own.iter().enumerate().for_each(|(k, v)| dense.place(row, Some(common + r * own + k), v));
+                cell.own
+                    .iter()
+                    .enumerate()
+                    .for_each(|(k, v)| dense.place(row, Some(common + (r * HARMONICS + h) * own + k), v));
                 for (s, &spot) in spots.iter().enumerate() {
                     let column = dense.force(s, r, h);
                     let turned: Vec<c64> = cell.columns[spot].iter().map(|a| a * c64::new(0.0, 1.0)).collect();
@@ -90,7 +93,7 @@ impl Dense {
         }
         // Parameters have unit prior deviations, by which as much is meant as what is left per datum.
         let (weight, first) = (MISFIT.sqrt(), 2 * CHANNELS * cells);
-        for k in 0..common + RUNS * own {
+        for k in 0..common + cells * own {
             dense.matrix[(first + k, k)] = weight;
             dense.right[first + k] = if k < common { -weight * screen.reference[k] } else { 0.0 };
         }
@@ -99,7 +102,7 @@ impl Dense {
 
     /// Column of the real part of the force of the spot number `s`.
     fn force(&self, s: usize, r: usize, h: usize) -> usize {
-        self.common + RUNS * self.own + 2 * ((s * RUNS + r) * HARMONICS + h)
+        self.common + RUNS * HARMONICS * self.own + 2 * ((s * RUNS + r) * HARMONICS + h)
     }
 
     /// Writes complex values as the rows from `row` of a column, or of the right-hand side.
@@ -193,9 +196,10 @@ fn a_force_follows_the_parameters_as_in_dense_least_squares() {
     let dense = Dense::new(&screen, &[spot]);
     let held = dense.matrix.columns(COMMON, dense.matrix.ncols() - COMMON).into_owned();
     let covariance = (held.transpose() * &held).try_inverse().expect("independent columns");
-    for r in 0..RUNS {
-        let found = freedom.runs[r].as_ref().expect("a place that is seen");
-        let column = dense.force(0, r, 0) - COMMON;
+    assert!(freedom.runs.iter().all(|run| run[HARMONICS - 1].is_none()));
+    for (r, h) in (0..RUNS).flat_map(|r| (0..HARMONICS - 1).map(move |h| (r, h))) {
+        let found = freedom.runs[r][h].as_ref().expect("a place that is seen");
+        let column = dense.force(0, r, h) - COMMON;
         for k in 0..COMMON {
             // What the change of a parameter takes from the rows of the data; its prior holds no other unknown.
             let right = -dense.matrix.column(k);
@@ -203,7 +207,7 @@ fn a_force_follows_the_parameters_as_in_dense_least_squares() {
             close(found.common[k].re, x[column]);
             close(found.common[k].im, x[column + 1]);
         }
-        let noise = screen.cells[r][0].squares[spot].recip();
+        let noise = screen.cells[r][h].squares[spot].recip();
         close(found.own[0], covariance[(column, column)] - noise);
         close(found.own[1], covariance[(column, column + 1)]);
         close(found.own[2], covariance[(column + 1, column + 1)] - noise);
