@@ -123,7 +123,10 @@ fn parts_beside_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine,
             cell.clear();
         }
     }
-    // What the first column says there is the unit of the abscissa.
+    // The word that labels a row of names is no name of the abscissa, and what the first column says there is its unit.
+    if NAME_WORDS.contains(&label(&others[names].cells[0]).as_str()) {
+        others[names].cells[0].clear();
+    }
     let first = parts.cells.first_mut()?;
     if is_unit(first) && split(&others[names].cells[0]).1.is_empty() {
         others[names].cells[0] = format!("{} [{first}]", others[names].cells[0]).trim().to_owned();
