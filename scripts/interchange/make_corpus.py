@@ -406,10 +406,21 @@ def one_channel_each():
     expect("group-a-channel.tdms", "tdms", [("", *channel[1:]) for channel in both])
 
 
+def clocks_and_parts():
+    """A clock that passes midnight; a table of ME'scope; levels over the reference of ISO 1683."""
+    clock = [f"{t // 3600 % 24:02.0f}:{t // 60 % 60:02.0f}:{t % 60:06.3f}" for t in (86399990 + np.arange(N)) / 1000]
+    comma = lambda v: repr(float(v)).replace(".", ",")
+    lines = ["Zeit;Kraft;Acc", "hh:mm:ss.fff;N;g"] + [f"{t};{comma(a)};{comma(b)}" for t, a, b in zip(clock, FORCE, ODD)]
+    text("midnight.csv", "\n".join(lines) + "\n", "csv", [("", "Kraft", "N", STEP, FORCE), ("", "Acc", "g", STEP, ODD)])
+    lines = ["M#s\t1\t1\t2\t2", "DOFs\t2Z:8Z\t2Z:8Z\t4Z:8Z\t4Z:8Z", "Units\tg/lbf\tg/lbf\tg/lbf\tg/lbf", "Hz\tReal\tImag\tReal\tImag"]
+    lines += ["\t".join(repr(float(v)) for v in row) for row in zip(I * 0.5, FRF.real, FRF.imag, ODD, ACC)]
+    text("mescope.txt", "\n".join(lines) + "\n", "csv", [("", "1 2Z:8Z", "g/lbf", 0.5, FRF), ("", "2 4Z:8Z", "g/lbf", 0.5, ODD + 1j * ACC)])
+
+
 import scipy.io.wavfile  # noqa: E402
 import scipy.sparse  # noqa: E402
 
-for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described, one_channel_each]:
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described, one_channel_each, clocks_and_parts]:
     make()
 (OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
 print(f"{len(EXPECTED)} files in {OUT}")
