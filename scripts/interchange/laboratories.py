@@ -229,7 +229,7 @@ def _(p):
             f.create_dataset(name, data=values.astype("f8")).attrs["Unit"] = unit
 
 
-@case("keysight-like.h5", (), LINE)
+@case("keysight-like.h5")
 def _(p):
     with h5py.File(p, "w") as f:
         for i, (name, values) in enumerate([("Channel 1", FORCE), ("Channel 2", ACC)]):

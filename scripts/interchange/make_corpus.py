@@ -370,10 +370,57 @@ def described():
     text("names-below-parts.txt", "\n".join(lines) + "\n", "csv", [("", "FRF plate:1:+Z/rig:1:+Z", "(m/s^2)/N", 0.5, FRF)])
 
 
+def one_channel_each():
+    """Records of which every channel is a struct or a group of its own, and groups of one channel that are runs."""
+    both = [("rec", "Hammer", "N", STEP, FORCE), ("rec", "Acc 7", "g", STEP, ODD)]
+    fields = [("name", object), ("units", object), ("node", object), ("fs", object), ("data", object)]
+    record = np.empty(2, dtype=fields)
+    record[0], record[1] = ("Hammer", "N", 3.0, 1 / STEP, FORCE[:, None]), ("Acc 7", "g", 7.0, 1 / STEP, ODD[:, None])
+    scipy.io.savemat(OUT / "struct-a-channel.mat", {"rec": record})
+    expect("struct-a-channel.mat", "mat", both)
+    with h5py.File(OUT / "v73-struct-a-channel.mat", "w", userblock_size=512) as file:
+        refs, top = file.create_group("#refs#"), file.create_group("rec")
+        top.attrs["MATLAB_class"] = np.bytes_("struct")
+        for field, kind in fields:
+            made = []
+            for i, value in enumerate(record[field]):
+                letters = isinstance(value, str)
+                data = refs.create_dataset(f"{field}{i}", data=np.array([[ord(c)] for c in value], dtype="u2") if letters else np.atleast_2d(value).T)
+                data.attrs["MATLAB_class"] = np.bytes_("char" if letters else "double")
+                made.append(data.ref)
+            top.create_dataset(field, data=np.array([made], dtype=h5py.ref_dtype).T, dtype=h5py.ref_dtype)
+    with open(OUT / "v73-struct-a-channel.mat", "r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: PCWIN64 HDF5 schema 1.00 .".ljust(116) + b" " * 8 + struct.pack("<H", 0x0200) + b"IM")
+    expect("v73-struct-a-channel.mat", "mat", both)
+    with h5py.File(OUT / "group-a-channel.h5", "w") as file:
+        for name, unit, values in [("Hammer", "N", FORCE), ("Acc 7", "g", ODD)]:
+            group = file.create_group(f"rec/{name}")
+            group.attrs["fs"], group.attrs["unit"] = 1 / STEP, unit
+            group.create_dataset("data", data=values)
+        for name, values in [("decay 1", FORCE), ("decay 2", ODD)]:
+            file.create_group(f"runs/{name}").create_dataset("acc", data=values).attrs["dt"] = STEP
+    expect("group-a-channel.h5", "hdf5", both + [("runs/decay 1", "acc", "", STEP, FORCE), ("runs/decay 2", "acc", "", STEP, ODD)])
+    wf = {"wf_increment": STEP, "wf_samples": 1, "wf_start_offset": 0.0}
+    with TdmsWriter(OUT / "group-a-channel.tdms") as writer:
+        writer.write_segment([ChannelObject(name, "Untitled", values, {**wf, "unit_string": unit}) for name, unit, values in [("Hammer", "N", FORCE), ("Acc 7", "g", ODD)]])
+    expect("group-a-channel.tdms", "tdms", [("", *channel[1:]) for channel in both])
+
+
+def clocks_and_parts():
+    """A clock that passes midnight; a table of ME'scope; levels over the reference of ISO 1683."""
+    clock = [f"{t // 3600 % 24:02.0f}:{t // 60 % 60:02.0f}:{t % 60:06.3f}" for t in (86399990 + np.arange(N)) / 1000]
+    comma = lambda v: repr(float(v)).replace(".", ",")
+    lines = ["Zeit;Kraft;Acc", "hh:mm:ss.fff;N;g"] + [f"{t};{comma(a)};{comma(b)}" for t, a, b in zip(clock, FORCE, ODD)]
+    text("midnight.csv", "\n".join(lines) + "\n", "csv", [("", "Kraft", "N", STEP, FORCE), ("", "Acc", "g", STEP, ODD)])
+    lines = ["M#s\t1\t1\t2\t2", "DOFs\t2Z:8Z\t2Z:8Z\t4Z:8Z\t4Z:8Z", "Units\tg/lbf\tg/lbf\tg/lbf\tg/lbf", "Hz\tReal\tImag\tReal\tImag"]
+    lines += ["\t".join(repr(float(v)) for v in row) for row in zip(I * 0.5, FRF.real, FRF.imag, ODD, ACC)]
+    text("mescope.txt", "\n".join(lines) + "\n", "csv", [("", "1 2Z:8Z", "g/lbf", 0.5, FRF), ("", "2 4Z:8Z", "g/lbf", 0.5, ODD + 1j * ACC)])
+
+
 import scipy.io.wavfile  # noqa: E402
 import scipy.sparse  # noqa: E402
 
-for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described]:
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described, one_channel_each, clocks_and_parts]:
     make()
 (OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
 print(f"{len(EXPECTED)} files in {OUT}")

@@ -530,7 +530,7 @@ def _(p):
                               ChannelObject("Log", "Acceleration", ACC, {"unit_string": "m/s^2"})])
 
 
-@case("stereo.wav", (), LINE)
+@case("stereo.wav", (), "opens")
 def _(p):
     with wave.open(str(p), "wb") as f:
         f.setnchannels(2), f.setsampwidth(2), f.setframerate(1000)

@@ -36,6 +36,7 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::TooShort => "too short",
         Flag::Drift => "drift",
         Flag::ExponentialWindow => "exponential window",
+        Flag::UnevenSteps => "uneven steps",
         Flag::BeforeRelease => "begins before its release",
     }
 }

@@ -38,13 +38,15 @@ pub enum Flag {
     Drift,
     /// An exponential window was laid over the record.
     ExponentialWindow,
+    /// The steps are uneven; the record was taken onto even ones.
+    UnevenSteps,
     /// The record of a decay begins before its release; it is used from there on.
     BeforeRelease,
 }
 
 impl Flag {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::NotSettled,
         Self::Noisy,
         Self::Clipped,
@@ -61,6 +63,7 @@ impl Flag {
         Self::TooShort,
         Self::Drift,
         Self::ExponentialWindow,
+        Self::UnevenSteps,
         Self::BeforeRelease,
     ];
 }

@@ -7,6 +7,7 @@ pub(crate) mod channel;
 mod decay;
 mod design;
 mod even_columns;
+mod even_steps;
 mod finding;
 pub mod fit;
 pub mod frequency;

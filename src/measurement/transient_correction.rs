@@ -4,6 +4,7 @@
 //! polynomial through six of them (error below 1e-3 of the amplitude up to a fifth of the sampling rate).
 
 use super::channel::{Channel, Quantity};
+use super::even_steps::{evened, off_even};
 use super::finding::{Finding, Flag};
 use super::kind::{Kind, Part};
 use super::proposal::release;
@@ -12,12 +13,11 @@ use super::run::ChannelCorrection;
 use super::transient_quality;
 use super::transient_run::{TransientLabel, TransientRun};
 use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Fewest samples of a part.
 pub(super) const FEWEST_SAMPLES: usize = 32;
-/// Deviation of an instant from even steps that still counts as even, in steps.
-const UNEVEN: f64 = 0.25;
 /// Points of the polynomial between the samples.
 const POINTS: usize = 6;
 
@@ -29,7 +29,9 @@ pub enum TransientRunError {
         "{found} samples lie between start_s and end_s (the record lasts from {first_s} s to {last_s} s); give at least {FEWEST_SAMPLES}"
     )]
     PartTooShort { found: usize, first_s: f64, last_s: f64 },
-    #[error("sample {row} at {time_s} s is {off:.2} steps off even steps; records that are not steady need even steps")]
+    #[error(
+        "sample {row} at {time_s} s is {off:.2} steps off even steps, and samples are missing or crowd there; records that are not steady need all of them"
+    )]
     UnevenSteps { row: usize, time_s: f64, off: f64 },
     #[error("no channel measures motion; add one, such as acc@7 [m/s^2]")]
     NoMotion,
@@ -52,7 +54,8 @@ impl TransientRun {
             let (first_s, last_s) = (record.time()[0], record.time()[record.len() - 1]);
             return Err(TransientRunError::PartTooShort { found: samples.len(), first_s, last_s });
         }
-        check_steps(&record.time()[samples.clone()], samples.start)?;
+        let (record, evened) = in_even_steps(record, samples.clone())?;
+        let samples = part.samples(record.time());
         if record.channels().iter().all(|channel| channel.quantity == Quantity::Force) {
             return Err(TransientRunError::NoMotion);
         }
@@ -66,6 +69,7 @@ impl TransientRun {
         run.findings = transient_quality::assess(&run);
         run.findings.extend(exponential_window_s.map(|constant| windowed(&run, constant)));
         run.findings.extend(released_s.map(released));
+        run.findings.extend(evened);
         Ok(run)
     }
 }
@@ -82,13 +86,16 @@ fn released(start_s: f64) -> Finding {
     Finding { flag: Flag::BeforeRelease, reason }
 }
 
-fn check_steps(time: &[f64], first: usize) -> Result<(), TransientRunError> {
-    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    let off = |n: usize| ((time[n] - time[0]) / step - n as f64).abs();
-    match (0..time.len()).find(|&n| off(n) > UNEVEN) {
-        Some(n) => Err(TransientRunError::UnevenSteps { row: first + n + 1, time_s: time[n], off: off(n) }),
-        None => Ok(()),
-    }
+/// The record where the part `samples` is in even steps, else taken onto even ones, which is said.
+fn in_even_steps(
+    record: Arc<Record>,
+    samples: Range<usize>,
+) -> Result<(Arc<Record>, Option<Finding>), TransientRunError> {
+    let first = samples.start;
+    let Some((n, off)) = off_even(&record.time()[samples]) else { return Ok((record, None)) };
+    let (row, time_s) = (first + n + 1, record.time()[first + n]);
+    let (even, finding) = evened(&record).ok_or(TransientRunError::UnevenSteps { row, time_s, off })?;
+    Ok((even, Some(finding)))
 }
 
 /// The record with every known delay and gain taken out; shared where there is none.

@@ -3,6 +3,7 @@
 use crate::contents::{Axis, Contents};
 use crate::detect;
 use crate::error::{Error, Fault, Read};
+use crate::gathered;
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
 use crate::source::{MOST_VALUES, Source};
@@ -49,7 +50,8 @@ fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree
     let opened = guarded(|| {
         let (contents, source) = detect::open(path)?;
         let (contents, source) = parts::among_channels(contents, source)?;
-        join(contents, source)
+        let (contents, source) = join(contents, source)?;
+        gathered::one_channel_each(contents, source)
     });
     let (mut contents, source) = opened.map_err(|fault| fault.of(&name))?;
     tell_apart(&mut contents);

@@ -27,6 +27,7 @@ mod contents;
 mod detect;
 mod error;
 mod file;
+mod gathered;
 mod guard;
 mod hdf5;
 mod mat;

@@ -129,7 +129,8 @@ fn windows(motion: &Motion, dominant: usize) -> Option<Vec<(usize, usize)>> {
         let window = (first + steps(count), first + steps(count + each));
         if stands_out(window.0) && stands_out(window.1) || !motion.forces.is_empty() && stands_out(window.1) {
             ends.push(window);
-        } else if !ends.is_empty() {
+        } else if !ends.is_empty() && motion.forces.is_empty() {
+            // Under a force the motion may rise again: a sweep goes on to its next resonance.
             break;
         }
         count += each;

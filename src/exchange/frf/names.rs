@@ -112,6 +112,13 @@ pub(crate) fn pair_in_name(name: &str) -> Option<[String; 2]> {
     {
         return Some([response.trim().to_owned(), reference.trim().to_owned()]);
     }
+    // `2Z:8Z` of ME'scope: both sides are places with a direction.
+    let last = name.split_whitespace().next_back().unwrap_or_default();
+    if let Some((response, reference)) = last.split_once(':')
+        && [response, reference].iter().all(|side| is_directed(side))
+    {
+        return Some([response.to_owned(), reference.to_owned()]);
+    }
     let words = name.split(|c: char| !(c.is_alphanumeric() || c == '+' || c == '-' || c == ':'));
     let places: Vec<String> = words
         .map(|word| word.trim_start_matches(|c: char| !c.is_ascii_digit()))
@@ -119,6 +126,12 @@ pub(crate) fn pair_in_name(name: &str) -> Option<[String; 2]> {
         .map(str::to_owned)
         .collect();
     <[String; 2]>::try_from(places).ok()
+}
+
+/// Whether a text is a number with the letter of an axis behind it, such as `2Z` or `2-Z`.
+fn is_directed(text: &str) -> bool {
+    let axis = text.trim_start_matches(|c: char| c.is_ascii_digit());
+    axis.len() < text.len() && matches!(axis.trim_start_matches(['+', '-']), "X" | "Y" | "Z" | "x" | "y" | "z")
 }
 
 /// Response in a name that says no reference, such as `Point 3` or `Acc 12 +Z`: from its first digit on.
@@ -147,6 +160,8 @@ mod tests {
         let pair = |name: &str| pair_in_name(name).map(|pair| pair.join(" "));
         assert_eq!(pair("12:+Z/1:-Z").as_deref(), Some("12:+Z 1:-Z"));
         assert_eq!(pair("acc@7/force@19").as_deref(), Some("acc@7 force@19"));
+        assert_eq!(pair("1 2Z:8Z").as_deref(), Some("2Z 8Z"));
+        assert_eq!(pair("12:+Z"), None);
         assert_eq!(pair("H_7z_19z").as_deref(), Some("7z 19z"));
         assert_eq!(pair("FRF(3,1)").as_deref(), Some("3 1"));
         assert_eq!((pair("H[1]"), pair("FRF")), (None, None));

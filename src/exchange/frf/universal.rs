@@ -30,7 +30,13 @@ struct Found {
     pair: [uff::Dof; 2],
     /// Whether SI units are assumed.
     assumed: bool,
+    /// Which estimator it is, by its lines of text: a place in [`ESTIMATORS`].
+    estimator: Option<usize>,
 }
+
+/// Estimators of a frequency response, the one to take first: H1 takes the noise to be in the response, as deviations by
+/// the coherence do; Hv shares it out; H2 takes it to be in the force.
+const ESTIMATORS: [&str; 3] = ["H1", "HV", "H2"];
 
 impl Reader<'_> {
     /// All responses with their coherences, and the faults that were read over.
@@ -72,6 +78,8 @@ impl Reader<'_> {
         if found.is_empty() {
             return Err(FrfProblem::NoResponses);
         }
+        let (mut found, taken) = one_estimator(found);
+        faults.extend(taken.map(|taken| format!("{name}: {taken}")));
         no_pair_twice(&found)?;
         faults.extend(assumed(name, &found));
         for (set, coherence) in coherences {
@@ -130,7 +138,7 @@ impl Reader<'_> {
             values: (0..function.values.len()).map(value).collect(),
             coherence: None,
         };
-        Ok(Found { set, function, pair, assumed })
+        Ok(Found { set, function, pair, assumed, estimator: estimator(header) })
     }
 
     /// What the project calls the DOFs of a side of the file that has these names, responses first.
@@ -212,6 +220,34 @@ fn assumed(name: &str, found: &[Found]) -> Option<String> {
             found.len()
         )
     })
+}
+
+/// The estimator that the lines of text of a function name.
+fn estimator(header: &FunctionHeader) -> Option<usize> {
+    let words = header.id.iter().flat_map(|line| line.split(|c: char| !c.is_alphanumeric()));
+    words.map(str::to_uppercase).find_map(|word| ESTIMATORS.iter().position(|known| *known == word))
+}
+
+/// The functions without those that are there by a better estimator too, and how that is said.
+fn one_estimator(found: Vec<Found>) -> (Vec<Found>, Option<String>) {
+    let pair = |one: &Found| (one.function.response.dof, one.function.reference.dof);
+    let best: BTreeMap<(usize, usize), usize> = {
+        let mut best = BTreeMap::new();
+        for one in &found {
+            if let Some(own) = one.estimator {
+                best.entry(pair(one)).and_modify(|least: &mut usize| *least = own.min(*least)).or_insert(own);
+            }
+        }
+        best
+    };
+    let worse = |one: &Found| one.estimator.is_some_and(|own| best.get(&pair(one)).is_some_and(|least| *least < own));
+    let (left, kept): (Vec<Found>, Vec<Found>) = found.into_iter().partition(worse);
+    let said = left.first().and_then(|one| {
+        let taken = ESTIMATORS[*best.get(&pair(one))?];
+        let other = ESTIMATORS[one.estimator?];
+        Some(format!("{} functions are there as {taken} and as {other}; {taken} is taken", left.len()))
+    });
+    (kept, said)
 }
 
 fn no_pair_twice(found: &[Found]) -> Result<(), FrfProblem> {

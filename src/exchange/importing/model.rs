@@ -56,6 +56,11 @@ pub(super) fn head(request: &Request, out: &Path, own: &str, up_to_hz: f64) -> R
     ))
 }
 
+/// What stands in a project of frequency responses on a model, beside the candidates that are proposed: dashpots alone take over
+/// what the material loses, as several that nobody built.
+pub(super) const MATERIAL: &str = "# Material and joints lose energy too. Where dashpots come out that nobody built, let the whole structure lose some:\n\
+                                   # [[source]]\n# law = \"loss_factor\"\n# state = \"candidate\"\n\n";
+
 /// Least reach of points given in another unit than the model, over its size.
 const SPANNED: f64 = 0.1;
 

@@ -3,7 +3,7 @@
 use super::error::{ImportError, Result};
 use super::functions::{Labelled, Measured, functions, measured, opened, pair, together};
 use super::kept::Kept;
-use super::model::{Point, head, model, places};
+use super::model::{MATERIAL, Point, head, model, places};
 use super::numbers::{Taken, along_the_only_axis, of_numbers, said_of_axis};
 use super::request::{Imported, Request};
 use super::text::{comment, counted, named, points as points_structure};
@@ -211,7 +211,8 @@ fn project(request: &Request, out: &Path) -> Result<Found> {
     }
     let up_to = if highest_hz > 0.0 { 2.0 * highest_hz } else { 2000.0 };
     let head = head(request, out, &points_structure(&labels), up_to)?;
-    let mut tables = String::new();
+    let mut tables =
+        if request.has_model() && !head.contains("[[source]]") { MATERIAL.to_owned() } else { String::new() };
     for one in &measured {
         let further = one.further.iter().map(|file| named(file, out)).collect::<Result<Vec<_>>>()?;
         tables.push_str(&table(request, &named(&one.path, out)?, &further, one, &dofs));

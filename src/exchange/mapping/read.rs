@@ -10,7 +10,7 @@ use crate::exchange::records::{RecordFileError, RecordProblem, base_channel, kno
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
 use crate::structure::{Structure, StructureKind};
-use dashpot_datafiles::{DataFile, Set, open};
+use dashpot_datafiles::{Channel as FileChannel, DataFile, Set, open};
 use std::path::Path;
 
 /// What the project says of its laboratory files.
@@ -137,7 +137,7 @@ fn own_channels(file: &DataFile) -> Vec<ChannelTable> {
 fn present_in(file: &DataFile, channels: &[ChannelTable], run_set: Option<&str>) -> Vec<ChannelTable> {
     let has = |set: &str| match run_set {
         Some(own) => own == set,
-        None => file.contents().sets.iter().any(|other| other.name == set),
+        None => file.contents().sets.iter().any(|other| is_called(other, set)),
     };
     let meant = channels.iter().filter(|table| table.is_meant(channels, &has));
     meant.filter(|table| !table.optional || holds(file, table, run_set)).cloned().collect()
@@ -146,8 +146,18 @@ fn present_in(file: &DataFile, channels: &[ChannelTable], run_set: Option<&str>)
 /// Whether a file has the channel of a table.
 fn holds(file: &DataFile, table: &ChannelTable, run_set: Option<&str>) -> bool {
     let wanted = run_set.or(table.set.as_deref());
-    let mut sets = file.contents().sets.iter().filter(|set| wanted.is_none_or(|wanted| wanted == set.name));
-    sets.any(|set| set.channels.iter().any(|channel| channel.name == table.name))
+    let mut sets = file.contents().sets.iter();
+    sets.any(|set| set.channels.iter().any(|channel| channel.name == table.name && is_in(set, channel, wanted)))
+}
+
+/// Whether a channel is in a set of that name: channels that are gathered from sets of their own are in these too.
+fn is_in(set: &Set, channel: &FileChannel, wanted: Option<&str>) -> bool {
+    wanted.is_none_or(|wanted| wanted == set.name || channel.attribute("set") == Some(wanted))
+}
+
+/// Whether a set, or that of one of its channels, has that name.
+fn is_called(set: &Set, wanted: &str) -> bool {
+    set.name == wanted || set.channels.iter().any(|channel| channel.attribute("set") == Some(wanted))
 }
 
 /// The name of the only set of a file without a set `wanted` that is called as it is below the same number of groups: paths hold
@@ -176,22 +186,22 @@ fn locate(
     let sets = &file.contents().sets;
     let renamed = table.set.as_deref().filter(|_| run_set.is_none()).and_then(|set| same_end(sets, set));
     let wanted = renamed.or(wanted);
-    if let Some(wanted) = wanted.filter(|wanted| sets.iter().all(|set| set.name != *wanted)) {
+    if let Some(wanted) = wanted.filter(|wanted| !sets.iter().any(|set| is_called(set, wanted))) {
         let names: Vec<String> = sets.iter().take(12).map(|set| format!("\"{}\"", set.name)).collect();
         return Err(
             at.error(Some(&table.name), format!("the file has no set \"{wanted}\"; it has {}", names.join(", ")))
         );
     }
-    let inside = |name: &str| wanted.is_none_or(|wanted| wanted == name);
-    let places = sets.iter().enumerate().filter(|(_, set)| inside(&set.name)).flat_map(|(s, set)| {
-        set.channels.iter().enumerate().filter(|(_, channel)| channel.name == table.name).map(move |(c, _)| (s, c))
+    let places = sets.iter().enumerate().flat_map(|(s, set)| {
+        let named = |channel: &FileChannel| channel.name == table.name && is_in(set, channel, wanted);
+        set.channels.iter().enumerate().filter(move |(_, channel)| named(channel)).map(move |(c, _)| (s, c))
     });
     let places: Vec<(usize, usize)> = places.collect();
     match places[..] {
         [one] => Ok(one),
         [] => {
-            let names = sets.iter().filter(|set| inside(&set.name)).flat_map(|set| &set.channels);
-            let names: Vec<String> = names.take(12).map(|channel| format!("\"{}\"", channel.name)).collect();
+            let inside = |set: &'_ Set| set.channels.iter().filter(|c| is_in(set, c, wanted)).map(|c| format!("\"{}\"", c.name)).collect();
+            let names: Vec<String> = sets.iter().flat_map(|set| -> Vec<String> { inside(set) }).take(12).collect();
             let has = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             Err(at.error(Some(&table.name), format!("the file has no channel of that name; it has {has}")))
         }

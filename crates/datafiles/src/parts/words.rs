@@ -77,7 +77,8 @@ const DECIBEL: &[&str] = &["db", "decibel"];
 const DEGREES: &[&str] = &["deg", "degree", "degrees", "grad", "gradi", "°"];
 const RADIANS: &[&str] = &["rad", "radian", "radians", "radianti"];
 /// Words that say nothing beside those above.
-const FILL: &[&str] = &["part", "teil", "parte", "partie", "value", "values", "of", "lin", "linear", "component"];
+const FILL: &[&str] =
+    &["part", "teil", "parte", "partie", "value", "values", "of", "lin", "linear", "component", "level", "pegel"];
 /// Words for frequency responses.
 const RESPONSE: &[&str] = &[
     "frf",
@@ -265,6 +266,7 @@ mod tests {
             ("12:+Z/1:+Z Imag.", Part::Imaginary, "12:+Z/1:+Z"),
             ("Betrag Punkt 3", Part::Magnitude, "Punkt 3"),
             ("FRF 7/19 (m/s²/N) Mag", Part::Magnitude, "FRF 7/19"),
+            ("H 2Z/8Z Level Phase", Part::Phase, "H 2Z/8Z"),
         ] {
             assert_eq!(of(name), (Some(part), rest.to_owned()), "{name}");
         }
@@ -279,5 +281,7 @@ mod tests {
     #[test]
     fn words_for_responses_do_not_tell_columns_apart() {
         assert_eq!(said("Accelerance 7/19 (dB)").core, said("Phase 7/19").core);
+        // ISO 1683 calls a logarithm over a reference a level.
+        assert_eq!(said("H 7/19 Level").core, said("H 7/19 Phase").core);
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct Header {
     pub remarks: Vec<String>,
 }
 
-const NAME_WORDS: [&str; 12] = [
+const NAME_WORDS: [&str; 13] = [
     "name",
     "names",
     "channel",
@@ -35,6 +35,7 @@ const NAME_WORDS: [&str; 12] = [
     "point",
     "point id",
     "dof",
+    "dofs",
 ];
 const UNIT_WORDS: [&str; 9] =
     ["unit", "units", "einheit", "einheiten", "y_unit", "y_unit_label", "y axis unit", "y-axis unit", "ordinate unit"];
@@ -92,7 +93,7 @@ fn parts_beside_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine,
         let filled = lines[i].cells.iter().filter(|cell| !cell.is_empty()).count();
         // `Signal:` in front of a text is a label, no name over columns, and so is what stands before nothing but a unit.
         let only_units = lines[i].cells[1..].iter().filter(|cell| !cell.is_empty()).all(|cell| is_unit(cell));
-        let labels = lines[i].cells[0].trim_end().ends_with(':') || only_units;
+        let labels = lines[i].cells[0].trim_end().ends_with([':', '=']) || only_units;
         lines[i].cells.len() > 1
             && fits(&lines[i].cells, width)
             && filled > 1
@@ -122,7 +123,10 @@ fn parts_beside_names(lines: &[HeaderLine], width: usize) -> Option<(HeaderLine,
             cell.clear();
         }
     }
-    // What the first column says there is the unit of the abscissa.
+    // The word that labels a row of names is no name of the abscissa, and what the first column says there is its unit.
+    if NAME_WORDS.contains(&label(&others[names].cells[0]).as_str()) {
+        others[names].cells[0].clear();
+    }
     let first = parts.cells.first_mut()?;
     if is_unit(first) && split(&others[names].cells[0]).1.is_empty() {
         others[names].cells[0] = format!("{} [{first}]", others[names].cells[0]).trim().to_owned();

@@ -58,10 +58,12 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     let mut header = header::read(&block.header, width);
     listed::take(&mut header, &block.header);
     join_date(&mut header, &mut block);
+    let midnight = pass_midnight(&mut block);
     let axis = find_axis(&header, &block.columns, block.rows);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
     set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
+    set.notes.extend(midnight);
     set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
@@ -150,9 +152,28 @@ fn without_empty_ends(block: &mut Block, axis: usize) -> Option<String> {
     ))
 }
 
+/// Seconds of a day.
+const DAY: f64 = 86400.0;
+
+/// Times of day that begin anew at midnight go on over it; says so.
+fn pass_midnight(block: &mut Block) -> Option<String> {
+    let of_day = |column: &&mut Numbers| column.clock && column.re.iter().all(|value| (0.0..DAY).contains(value));
+    let mut passed = false;
+    for column in block.columns.iter_mut().take(2).filter(of_day) {
+        let (mut days, mut before) = (0.0, f64::NEG_INFINITY);
+        for value in &mut column.re {
+            // Times in disorder stay what they are: only a fall by most of a day is midnight.
+            days += if before - *value > 0.5 * DAY { DAY } else { 0.0 };
+            before = *value;
+            *value += days;
+        }
+        passed |= days > 0.0;
+    }
+    passed.then(|| "the clock passes midnight: the times go on over it".to_owned())
+}
+
 /// A column of dates and one of times of day behind it are one clock.
 fn join_date(header: &mut header::Header, block: &mut Block) {
-    const DAY: f64 = 86400.0;
     let [dates, times, ..] = &mut block.columns[..] else { return };
     let whole = |values: &[f64]| values.iter().all(|value| value % DAY == 0.0);
     let same = dates.re.len() == times.re.len() && dates.clock && times.clock;

@@ -10,7 +10,20 @@ const STRUCTS: [&str; 5] = ["_header", "_info", "_properties", "_props", "_meta"
 /// Ends of the names of the arrays that they describe.
 const ARRAYS: [&str; 4] = ["_data", "_values", "_signal", ""];
 /// Fields of the structs with names of channels, and with units.
-const NAMES: [&str; 7] = ["SignalName", "ChannelName", "Name", "name", "Label", "label", "signalname"];
+pub(super) const NAMES: [&str; 12] = [
+    "SignalName",
+    "ChannelName",
+    "Name",
+    "name",
+    "Label",
+    "label",
+    "signalname",
+    "channel_name",
+    "channelName",
+    "channelname",
+    "Channel",
+    "channel",
+];
 const UNITS: [&str; 6] = ["Unit", "unit", "Units", "units", "PhysicalUnit", "YUnit"];
 
 /// The entries of a group, described arrays under their own names and with units and sampling rates as attributes.

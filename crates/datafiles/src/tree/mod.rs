@@ -13,6 +13,7 @@ mod timeseries;
 pub(crate) use names::{Sampling, sampling};
 pub(crate) use sets::sets;
 pub(crate) use source::{Arrays, Flat, TreeSource};
+pub(crate) use timeseries::is_plain;
 
 use crate::contents::FIRST;
 

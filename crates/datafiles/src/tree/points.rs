@@ -14,10 +14,12 @@ const SIDES: [&str; 2] = ["response", "reference"];
 /// The side that a word names.
 fn side_of(word: &str) -> Option<&'static str> {
     let plain: String = word.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
-    let stem = ["nodes", "node", "dofs", "dof", "points", "point", "ids", "id"]
-        .iter()
-        .find_map(|end| plain.strip_suffix(end))
-        .unwrap_or(&plain);
+    let stem = [
+        "nodes", "node", "dofs", "dof", "points", "point", "ids", "id", "names", "name", "labels", "label", "channels",
+    ]
+    .iter()
+    .find_map(|end| plain.strip_suffix(end))
+    .unwrap_or(&plain);
     match stem {
         "response" | "responses" | "resp" | "rsp" | "output" | "outputs" | "out" => Some(SIDES[0]),
         "reference" | "references" | "ref" | "excitation" | "exc" | "drive" | "driving" | "hammer" | "input"
@@ -175,7 +177,7 @@ mod tests {
 
     #[test]
     fn words_of_programs_name_the_sides() {
-        for word in ["resp_dof", "response_nodes", "Response", "outputs", "out_nodes", "rsp_node"] {
+        for word in ["resp_dof", "response_nodes", "Response", "outputs", "out_nodes", "rsp_node", "out_names"] {
             assert_eq!(side_of(word), Some("response"), "{word}");
         }
         for word in

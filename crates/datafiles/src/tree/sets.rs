@@ -112,7 +112,7 @@ impl Made<'_> {
                 Node::Group(_) => {}
             }
         }
-        name_data(&mut set, path, entries);
+        name_data(&mut set, path, entries, attributes);
         finish(&mut set, entries, attributes, axis);
         super::points::attach(&mut set, entries, attributes, self.arrays)?;
         for (name, value) in attributes {

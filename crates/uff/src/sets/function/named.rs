@@ -61,7 +61,10 @@ fn pair(line: &str) -> Option<[Dof; 2]> {
 fn labelled(line: &str, labels: &[&str]) -> Option<Dof> {
     let word = words(line).find(|word| begins(word, labels))?;
     let at = word.as_ptr() as usize - line.as_ptr() as usize;
-    first_point(&line[at + word.len()..]).map(|point| point.dof)
+    let behind = &line[at + word.len()..];
+    // `Ref1` alone is a channel of the analyser.
+    let glued = behind.starts_with(|c: char| c.is_ascii_digit());
+    first_point(behind).map(|point| point.dof).filter(|dof| !glued || dof.direction != 0)
 }
 
 fn words(text: &str) -> impl Iterator<Item = &str> {
@@ -139,6 +142,7 @@ mod tests {
         assert_eq!(stated(["Ref: Hammer 7:+Y", ""], [Dof::new(3, 2), Dof::default()]), "3:+Y 7:+Y");
         // What the fields say goes first; dates, units and ratios are no points.
         assert_eq!(stated(["Acc_3:+Z / Ham_5:+Z", ""], [Dof::new(1, 1), Dof::new(2, 1)]), "1:+X 2:+X");
+        assert_eq!(of("Vib / Ref1 FRF"), "0:S 0:S");
         for line in ["Test 21/03/2024", "m/s^2/N", "Run 3/5 of 12", "Average 5, 12.5 Hz"] {
             assert_eq!(of(line), "0:S 0:S", "{line}");
         }
