@@ -165,7 +165,7 @@ impl<'a> ReferenceModel<'a> {
     /// The laws of the whole structure, regressed at the measured motion beside the updating parameters as free forces at one
     /// place are, and these.
     pub(crate) fn whole_sets(&self, view: &View) -> Vec<(UnfittedSet, Vec<f64>)> {
-        let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
+        let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, 1, self.control) else {
             return Vec::new();
         };
         let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];

@@ -53,6 +53,18 @@ impl<'a> ReferenceModel<'a> {
         Ok(reference)
     }
 
+    /// The same model where higher harmonics are doubted as far as the model is.
+    #[must_use]
+    pub(crate) fn doubting_harmonics(&self) -> ReferenceModel<'a> {
+        let linearisation = Linearisation { doubts_harmonics: true, ..(*self.linearisation).clone() };
+        ReferenceModel {
+            linearisation: Arc::new(linearisation),
+            predictions: self.predictions.clone(),
+            noise: self.noise.clone(),
+            ..self.shallow()
+        }
+    }
+
     /// Noise of the residual of a model with `effects` and its predictions.
     pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
         let whitening = |(r, run): (usize, &RunData), a: &Transfers| Whitening::new(run, a, &of[r].truncation);

@@ -56,7 +56,11 @@ impl ReferenceModel<'_> {
             None => self.predictions.clone(),
             Some(fit) => self.estimator().predict(effects, &FINAL, &fit.starts)?,
         };
-        let noise = self.noise_of_places(effects, &predictions)?;
+        let noise = if self.linearisation.doubts_harmonics {
+            self.noise_of_places(effects, &predictions)?
+        } else {
+            self.noise.runs.clone()
+        };
         let screen = Screen::new(
             &self.predictor,
             self.data,
@@ -206,7 +210,7 @@ impl ReferenceModel<'_> {
     /// that share of it only.
     fn doubt_harmonics(&self, view: &View, s: usize, forces: &mut [Vec<FreeForce>]) {
         let Spot::Leg(leg) = view.screen.spots[s] else { return };
-        if self.linearisation.is_empty() {
+        if !self.linearisation.doubts_harmonics {
             return;
         }
         for (r, (run, list)) in self.data.runs.iter().zip(forces).enumerate() {

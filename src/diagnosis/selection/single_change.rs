@@ -50,7 +50,7 @@ impl<'a> ReferenceModel<'a> {
         if !self.predictor.known().iter().all(|source| source.effect.is_linear()) {
             return Ok(Vec::new());
         }
-        let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, self.control) else {
+        let Some(seen) = MeasuredMotion::new(&self.predictor, self.data, &self.predictions, 1, self.control) else {
             return Ok(Vec::new());
         };
         let marginal = &self.noise.updating;

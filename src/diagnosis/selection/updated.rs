@@ -73,7 +73,10 @@ impl<'a> ReferenceModel<'a> {
     fn linearised(&self, updating: &Updating, effects: &[Source], predictions: &[RunPrediction]) -> Linearisation {
         let known = self.predictor.known();
         let linear = effects.is_empty() && known.iter().all(|source| source.effect.is_linear());
-        let seen = linear.then(|| MeasuredMotion::new(&self.predictor, self.data, predictions, self.control)).flatten();
+        let doubts_harmonics = self.linearisation.doubts_harmonics;
+        let highest = if doubts_harmonics { usize::MAX } else { 1 };
+        let seen = || MeasuredMotion::new(&self.predictor, self.data, predictions, highest, self.control);
+        let seen = linear.then(seen).flatten();
         let runs = self.data.runs.iter().zip(predictions);
         let amplitudes: Vec<Vec<Vec<c64>>> = runs.map(|(run, p)| amplitudes(run, &p.channels)).collect();
         let shapes = ShapeErrors::new(&self.predictor, updating, self.data);
@@ -86,7 +89,10 @@ impl<'a> ReferenceModel<'a> {
                 Some(seen) => seen.slopes(r, &sums),
                 None => self.model_slopes(r, effects, &predictions[r], &sums),
             };
-            let stiffness = slopes.pop().unwrap_or_default();
+            let mut stiffness = slopes.pop().unwrap_or_default();
+            if seen.is_some() {
+                fundamentals_alone(&mut stiffness);
+            }
             for (k, (slope, parameter)) in slopes.iter_mut().zip(&updating.parameters).enumerate() {
                 if !updating.acts_in(k, r) {
                     slope.iter_mut().flatten().for_each(|value| *value = c64::new(0.0, 0.0));
@@ -101,15 +107,24 @@ impl<'a> ReferenceModel<'a> {
         };
         let (mut common, stiffness): (Vec<RunSlopes>, Vec<_>) =
             self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
-        let at_motion = if seen.is_some() { common.clone() } else { Vec::new() };
+        let at_motion = if seen.is_some() && doubts_harmonics { common.clone() } else { Vec::new() };
         // Beside effects the model is fitted on the response itself: what harmonics tell of it is told there.
         for slopes in common.iter_mut().filter(|_| seen.is_some()) {
             let of_model = slopes.iter_mut().zip(&updating.parameters).filter(|(_, parameter)| parameter.is_of_model());
-            of_model.flat_map(|(slope, _)| slope).for_each(|channel| channel[1..].fill(c64::new(0.0, 0.0)));
+            of_model.for_each(|(slope, _)| fundamentals_alone(slope));
         }
         let leverage = if seen.is_some() { leverage(self.data, updating, &common, predictions) } else { Vec::new() };
         let expansions = seen.map_or_else(Vec::new, |seen| seen.expansions);
-        Linearisation { updating: updating.clone(), common, at_motion, stiffness, expansions, leverage, amplitudes }
+        Linearisation {
+            updating: updating.clone(),
+            common,
+            at_motion,
+            doubts_harmonics,
+            stiffness,
+            expansions,
+            leverage,
+            amplitudes,
+        }
     }
 
     /// Derivatives of the model with `effects` at its own motion times the factor that fits the sensors best.
@@ -302,6 +317,11 @@ impl<'a> ReferenceModel<'a> {
         }
         Ok((reference, fitted))
     }
+}
+
+/// Drops the higher harmonics of derivatives, `[channel][harmonic - 1]`.
+fn fundamentals_alone(slope: &mut [Vec<c64>]) {
+    slope.iter_mut().for_each(|channel| channel[1..].fill(c64::new(0.0, 0.0)));
 }
 
 /// Relative error of a run from which on it may be on another branch than the measured one.

@@ -28,18 +28,20 @@ pub(crate) struct MeasuredMotion<'a> {
 }
 
 impl<'a> MeasuredMotion<'a> {
-    /// Of the model of `predictor`, whose predictions without any effect these are; `None` where its receptance is singular.
+    /// Of the model of `predictor`, whose predictions without any effect these are, up to the harmonic `highest`; `None` where its
+    /// receptance is singular.
     pub(crate) fn new(
         predictor: &'a Predictor,
         data: &'a Data,
         predictions: &[RunPrediction],
+        highest: usize,
         control: &Control,
     ) -> Option<Self> {
         let mut receptances = Receptances::new(predictor, data, &[]);
         for channel in data.runs.iter().flat_map(|run| &run.responses) {
             receptances.need(channel.dof, control).ok()?;
         }
-        let expansions = ModalExpansion::of_runs(predictor, data, predictions);
+        let expansions = ModalExpansion::of_runs(predictor, data, predictions, highest);
         let n = predictor.structure().len();
         let field = |r: usize, h: usize| {
             let mut field: Vec<c64> = (0..n).map(|dof| predictions[r].response.amplitude(dof, h)).collect();
@@ -48,7 +50,7 @@ impl<'a> MeasuredMotion<'a> {
             }
             field
         };
-        let of_run = |(r, run): (usize, &RunData)| (1..=run.harmonics).map(|h| field(r, h)).collect();
+        let of_run = |(r, run): (usize, &RunData)| (1..=run.harmonics.min(highest)).map(|h| field(r, h)).collect();
         let fields = data.runs.iter().enumerate().map(of_run).collect();
         Some(Self { predictor, data, receptances, fields, expansions })
     }
@@ -62,7 +64,7 @@ impl<'a> MeasuredMotion<'a> {
     pub(crate) fn slope(&self, r: usize, sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<Vec<c64>> {
         let run = &self.data.runs[r];
         let mut slope = vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
-        for h in 1..=run.harmonics {
+        for h in 1..=self.fields[r].len() {
             let force = self.force((r, h), sources, sum);
             for (slope, channel) in slope.iter_mut().zip(&run.responses) {
                 let moved = |&(dof, f): &(usize, c64)| self.receptances.entry(r, h, dof, channel.dof) * f;
@@ -148,7 +150,7 @@ mod tests {
         let control = Control::unattended();
         let predict = |(r, run)| predictor.predict_well(r, run, &[], None, &control).unwrap();
         let predictions: Vec<RunPrediction> = data.runs.iter().enumerate().map(predict).collect();
-        let seen = MeasuredMotion::new(&predictor, &data, &predictions, &control).unwrap();
+        let seen = MeasuredMotion::new(&predictor, &data, &predictions, 2, &control).unwrap();
         let updating = Updating::all(&stated, &known, &data);
         let spring = UpdatingParameter::Structure(Part::GroundSpring(0));
         let k = updating.parameters.iter().position(|p| *p == spring).unwrap();

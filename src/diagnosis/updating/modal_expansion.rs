@@ -30,10 +30,15 @@ pub(crate) struct ModalExpansion {
 
 impl ModalExpansion {
     /// Of every run and harmonic of `data` for the model of `predictor` with its `predictions`, `[run][harmonic - 1]`; none where
-    /// the model is singular.
-    pub(crate) fn of_runs(predictor: &Predictor, data: &Data, predictions: &[RunPrediction]) -> Vec<Vec<Option<Self>>> {
+    /// the model is singular, nor of harmonics above `highest`.
+    pub(crate) fn of_runs(
+        predictor: &Predictor,
+        data: &Data,
+        predictions: &[RunPrediction],
+        highest: usize,
+    ) -> Vec<Vec<Option<Self>>> {
         let of_run = |(r, (run, prediction)): (usize, (&RunData, &RunPrediction))| {
-            (1..=run.harmonics).map(|h| Self::new(predictor, (r, h), run, prediction)).collect()
+            (1..=run.harmonics.min(highest)).map(|h| Self::new(predictor, (r, h), run, prediction)).collect()
         };
         data.runs.iter().zip(predictions).enumerate().map(of_run).collect()
     }

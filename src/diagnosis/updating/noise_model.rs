@@ -34,6 +34,8 @@ pub(crate) struct Linearisation {
     pub stiffness: Vec<Vec<Vec<c64>>>,
     /// What turns a motion into the one that the sensors show, `[run][harmonic - 1]`; none where derivatives are of the model itself.
     pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
+    /// Whether higher harmonics are doubted as far as the model is: else its receptance is taken for exact there.
+    pub doubts_harmonics: bool,
     /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
@@ -50,7 +52,8 @@ impl Linearisation {
     /// Derivatives of harmonic `h` of run `r` by the standardised parameters that are common to all runs, then by what differs from run
     /// to run, `[parameter][channel]`; none where nothing is free.
     pub(crate) fn of_harmonic(&self, r: usize, h: usize) -> [Vec<Vec<c64>>; 2] {
-        let Some(common) = self.at_motion.get(r).or_else(|| self.common.get(r)) else {
+        let free = h == 1 || self.doubts_harmonics;
+        let Some(common) = self.at_motion.get(r).or_else(|| self.common.get(r)).filter(|_| free) else {
             return [Vec::new(), Vec::new()];
         };
         let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
