@@ -108,7 +108,7 @@ mod tests {
         let control = Control::unattended();
         let stated = ReferenceModel::new(predictor, &data, &control, &|_| {}).unwrap();
         let updating = Updating::all(&structure, &sources, &data);
-        let reference = stated.updated(&updating, &[], &Vec::new()).unwrap();
+        let reference = stated.doubting_harmonics().updated(&updating, &[], &Vec::new()).unwrap();
         let of = |errors: fn(&Data, &Linearisation, &[RunPrediction]) -> Vec<Vec<Vec<f64>>>| {
             errors(&data, &reference.linearisation, &reference.predictions)
         };

@@ -6,6 +6,7 @@ use crate::effects::law::{Point, Variable};
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;
+use crate::effects::range::geometric;
 use crate::effects::symbol::{HALF_WIDTH, Mark};
 
 /// Clearance on both sides, then a spring.
@@ -16,8 +17,8 @@ const DESCRIPTION: Description = Description {
     folds: true,
     dissipates: false,
     shapes: |range| {
-        // Contact begins so sharply that fits do not find their way from far.
-        range.extensions([0.1, 0.95], 10, 1.4).into_iter().map(|gap| vec![1.0, gap]).collect()
+        let gaps = geometric(0.1 * range.displacement, 0.95 * range.displacement, 10);
+        gaps.into_iter().map(|gap| vec![1.0, gap]).collect()
     },
     limits: &[Limit { law: Effect::Stiffness, holds: |p, at| p[1] < CLOSE * at.least, parameters: |p| vec![p[0]] }],
     symbol: &[

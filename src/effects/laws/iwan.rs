@@ -18,7 +18,7 @@ use crate::effects::effect::Effect;
 use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::masing::MasingLaw;
 use crate::effects::parameter::{Ends, Parameter};
-use crate::effects::range::Range;
+use crate::effects::range::{Range, geometric};
 use crate::effects::symbol::{Mark, Tone};
 
 /// Parallel elastic sliders with power-law distributed yield forces.
@@ -63,8 +63,7 @@ const DESCRIPTION: Description = Description {
 };
 
 fn shapes(range: &Range) -> Vec<Vec<f64>> {
-    range
-        .extensions([0.1, 3.0], 6, 4.0)
+    geometric(0.1 * range.least.max(0.05 * range.displacement), 3.0 * range.displacement, 6)
         .into_iter()
         .flat_map(|x| [-0.7, -0.4, -0.1].into_iter().flat_map(move |chi| [0.3, 1.5].map(|b| vec![1.0, x, chi, b])))
         .collect()
