@@ -17,8 +17,10 @@ pub struct Range {
 
 /// Share of the largest amplitude below which motion counts as rest where it is asked when a slider slips.
 const DEEPEST: f64 = 1e-4;
-/// Most ratios between the lengths that are tried.
-const MOST: usize = 24;
+/// Ratio of neighbouring extensions at most: slipping begins so gradually that fits find their way over a factor of two.
+const APART: f64 = 2.5;
+/// Fewest extensions.
+const FEWEST: usize = 8;
 
 impl Range {
     /// Of a motion of which nothing is known: no comparison with it holds.
@@ -54,18 +56,11 @@ impl Range {
     }
 
     /// Extensions (m) at which a slider may begin to slip: from well below the least amplitude to the largest, which over several modes
-    /// are decades apart. Slipping begins so gradually that fits find their way over a factor of two.
+    /// are decades apart.
     pub fn yields(&self) -> Vec<f64> {
-        self.extensions([0.3, 0.95], 8, 2.5)
-    }
-
-    /// Lengths (m) from `share[0]` of the least amplitude, or of what counts as rest, to `share[1]` of the largest: `count`, or as many
-    /// as leave no more than a factor of `apart` between neighbours.
-    pub fn extensions(&self, share: [f64; 2], count: usize, apart: f64) -> Vec<f64> {
-        let first = share[0] * self.least.max(DEEPEST * self.displacement);
-        let last = share[1] * self.displacement;
-        let steps = ((last / first).ln() / apart.ln()).ceil();
-        geometric(first, last, count.max((steps as usize).min(MOST) + 1))
+        let (first, last) = (0.3 * self.least.max(DEEPEST * self.displacement), 0.95 * self.displacement);
+        let ratios = ((last / first).ln() / APART.ln()).ceil();
+        geometric(first, last, FEWEST.max(ratios as usize + 1))
     }
 }
 

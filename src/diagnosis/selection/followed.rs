@@ -194,9 +194,7 @@ impl<'a> ReferenceModel<'a> {
         let sum = [(Unknown::Source { source: 0, parameter: 0 }, 1.0)];
         for r in 0..self.data.runs.len() {
             let slope = seen.slope(r, std::slice::from_ref(unit), &sum);
-            // As the updating parameters are: at the fundamental.
-            let fundamental = |c: usize, h: usize| if h == 1 { slope[c][0] } else { c64::new(0.0, 0.0) };
-            self.estimator().whitened(r, &mut rows, fundamental);
+            self.estimator().whitened(r, &mut rows, |c, h| slope[c][h - 1]);
         }
         rows
     }

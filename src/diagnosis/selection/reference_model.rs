@@ -10,7 +10,7 @@ use crate::diagnosis::residual::whitening::{Transfers, Whitening};
 use crate::diagnosis::result::{Early, Step};
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::updating::curvature::{curvature, unpredictable};
+use crate::diagnosis::updating::linearisation_error::{linearisation_error, unpredictable};
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel};
 use crate::effects::Source;
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square, sum_of_squares};
@@ -88,7 +88,7 @@ impl<'a> ReferenceModel<'a> {
         effects: &[Source],
         of: &[RunPrediction],
     ) -> Result<Vec<Whitening>, DiagnosisError> {
-        self.noise_beside(effects, of, &curvature(self.data, &self.linearisation, of))
+        self.noise_beside(effects, of, &linearisation_error(self.data, &self.linearisation, of))
     }
 
     /// Noise of the residual of each run with `errors` of the prediction beside those of truncation, `[run][channel][harmonic - 1]`.

@@ -14,6 +14,7 @@ use crate::diagnosis::updating::modal_expansion::DETUNING;
 use crate::effects::{Place, Source};
 use crate::math::statistics::bayesian_information;
 use faer::{Mat, c64};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -57,9 +58,9 @@ impl ReferenceModel<'_> {
             Some(fit) => self.estimator().predict(effects, &FINAL, &fit.starts)?,
         };
         let noise = if self.linearisation.doubts_harmonics {
-            self.noise_of_places(effects, &predictions)?
+            Cow::Owned(self.noise_of_places(effects, &predictions)?)
         } else {
-            self.noise.runs.clone()
+            Cow::Borrowed(&self.noise.runs)
         };
         let screen = Screen::new(
             &self.predictor,

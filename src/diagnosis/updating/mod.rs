@@ -1,9 +1,9 @@
 //! Model updating: what the model states wrongly, with priors and scales (Friswell and Mottershead 1995).
 
 pub(crate) mod correction;
-pub(crate) mod curvature;
 pub(crate) mod detuning;
 pub(crate) mod limited_step;
+pub(crate) mod linearisation_error;
 pub(crate) mod marginalisation;
 pub(crate) mod measured_motion;
 pub(crate) mod modal_expansion;

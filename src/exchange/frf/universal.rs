@@ -285,7 +285,30 @@ fn attach(found: &mut [Found], set: usize, coherence: &Function) -> Result<(), F
 
 #[cfg(test)]
 mod tests {
-    use super::told_once;
+    use super::{Found, estimator, one_estimator, told_once};
+    use crate::measurement::frf::FrequencyResponse;
+    use crate::measurement::{Channel, Quantity};
+    use uff::{Dof, Function, FunctionKind, Values};
+
+    /// Two functions by H2 and H1 in this order and one by H2 alone: H1 is taken where it is there.
+    #[test]
+    fn of_two_estimators_one_is_taken() {
+        let found = |set: usize, dof: usize, line: &str| {
+            let (pair, none) = ([Dof::new(1, 3), Dof::new(2, 3)], Values::Complex(Vec::new()));
+            let mut function =
+                Function::even(FunctionKind::FrequencyResponse, pair[0].clone(), pair[1].clone(), 0.0, 1.0, none);
+            line.clone_into(&mut function.header.id[0]);
+            let channel = |quantity| Channel { quantity, dof, label: dof.to_string() };
+            let (response, reference) = (channel(Quantity::Acceleration), channel(Quantity::Force));
+            let response = FrequencyResponse { response, reference, values: Vec::new(), coherence: None };
+            Found { set, function: response, pair, assumed: false, estimator: estimator(&function.header) }
+        };
+        let (kept, said) =
+            one_estimator(vec![found(0, 1, "FRF H2"), found(1, 1, "FRF H1 (10 avg)"), found(2, 5, "H2")]);
+        assert_eq!(kept.iter().map(|one| one.set).collect::<Vec<_>>(), [1, 2]);
+        assert_eq!(said.as_deref(), Some("1 functions are there as H1 and as H2; H1 is taken"));
+        assert_eq!(one_estimator(vec![found(0, 1, "FRF"), found(1, 1, "FRF")]).0.len(), 2);
+    }
 
     #[test]
     fn a_fault_of_many_sets_is_told_once() {

@@ -14,7 +14,7 @@ use crate::diagnosis::residual::prediction::RunPrediction;
 const UNPREDICTABLE: f64 = 4.0;
 
 /// Errors of the higher harmonics of all runs by the second order, `[run][channel][harmonic - 1]`, in units of the channels.
-pub(crate) fn curvature(
+pub(crate) fn linearisation_error(
     data: &Data,
     linearisation: &Linearisation,
     predictions: &[RunPrediction],
@@ -112,7 +112,7 @@ mod tests {
         let of = |errors: fn(&Data, &Linearisation, &[RunPrediction]) -> Vec<Vec<Vec<f64>>>| {
             errors(&data, &reference.linearisation, &reference.predictions)
         };
-        let (second_order, lost) = (of(curvature), of(unpredictable));
+        let (second_order, lost) = (of(linearisation_error), of(unpredictable));
         for c in 0..3 {
             assert!(second_order.iter().chain(&lost).all(|run| run[c][0] == 0.0));
             assert!((lost[0][c][2] - 1e-5).abs() < 1e-12 && (second_order[0][c][2] - 1e-5).abs() < 1e-12, "{lost:?}");
