@@ -71,7 +71,7 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
     let compare_run = |r: usize| -> Result<(RunComparison, Vec<Left>), DiagnosisError> {
         control.check()?;
         let run = &data.runs[r];
-        let failed = |reason| DiagnosisError::Response { file: problem.runs[run.index].file.clone(), reason };
+        let failed = |reason| DiagnosisError::of_response(problem.runs[run.index].file.clone(), reason);
         let (prediction, branch) = nearest(&predictor, r, run, effects, control).map_err(failed)?;
         let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
         let noise = Whitening::new(run, &transfers, &prediction.truncation);

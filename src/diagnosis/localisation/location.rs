@@ -76,7 +76,7 @@ impl<'a> Receptances<'a> {
             let excitation = Excitation { omega: run.omega, forces };
             let unit = self.predictor.run(r).respond(&self.linear, &excitation, &FINAL, None, control);
             let file = format!("number {}", run.index + 1);
-            column.push(unit.map_err(|reason| DiagnosisError::Response { file, reason })?.harmonics);
+            column.push(unit.map_err(|reason| DiagnosisError::of_response(file, reason))?.harmonics);
         }
         self.columns.insert(dof, column);
         Ok(())

@@ -28,7 +28,19 @@ pub enum DiagnosisError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What was computed of a model; none where no structure is like that, with a mass below zero: where a search went too far.
+impl DiagnosisError {
+    /// Why there is no response of a run. A model at fault is none of the run's: no run has a response then.
+    pub(crate) fn of_response(file: String, reason: ResponseError) -> Self {
+        match reason {
+            ResponseError::Model(fault) => Self::Model(fault),
+            ResponseError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            reason => Self::Response { file, reason },
+        }
+    }
+}
+
+/// What was computed of a model; none where no structure is like that, with a mass below zero: or one that nothing holds: where
+/// a search went too far.
 pub(crate) fn if_possible<T>(computed: Result<T, DiagnosisError>) -> Result<Option<T>, DiagnosisError> {
     match computed {
         Err(DiagnosisError::Model(_)) => Ok(None),

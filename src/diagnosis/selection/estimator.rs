@@ -61,7 +61,7 @@ impl Estimator<'_> {
         let mut silent = run.clone();
         silent.forces.iter_mut().for_each(|f| f.measured.fill(c64::new(0.0, 0.0)));
         let file = format!("number {}", run.index + 1);
-        let failed = |reason| DiagnosisError::Response { file, reason };
+        let failed = |reason| DiagnosisError::of_response(file, reason);
         let resting = self.predictor.predict(r, &silent, &[], &SEARCH, None, self.control).map_err(failed)?;
         Ok(RunPrediction { found: false, ..resting })
     }

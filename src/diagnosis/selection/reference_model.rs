@@ -108,7 +108,7 @@ impl<'a> ReferenceModel<'a> {
         whitening: impl Fn((usize, &RunData), &Transfers) -> Whitening,
     ) -> Result<Vec<Whitening>, DiagnosisError> {
         let of = |(r, run): (usize, &RunData)| {
-            let failed = |reason| DiagnosisError::Response { file: format!("number {}", run.index + 1), reason };
+            let failed = |reason| DiagnosisError::of_response(format!("number {}", run.index + 1), reason);
             let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
             Ok(whitening((r, run), &a))
         };
