@@ -122,6 +122,11 @@ pub(crate) fn basis_times(
                 product[i] += value * matrix[(i, j)];
             }
         }
+        for mode in structure.damping_of_modes() {
+            let along = (mode.pattern.iter().enumerate()).fold(c64::new(0.0, 0.0), |s, (i, v)| s + x[(i, k)] * *v);
+            let amplitude = along * basis.more_of(mode);
+            product.iter_mut().zip(&mode.pattern).for_each(|(p, v)| *p += amplitude * *v);
+        }
     }
     product
 }

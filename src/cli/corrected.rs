@@ -20,6 +20,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
             Part::Stiffness => ("stiffness", "", Value::Null),
             Part::Mass => ("mass", "", Value::Null),
             Part::Mode(mode) => ("mode", "mode", json!(mode + 1)),
+            Part::ModeDamping(mode) => ("mode_damping", "mode", json!(mode + 1)),
             Part::GroundSpring(dof) => ("spring", "dofs", dofs(&[*dof])),
             Part::Coupling(pair) => ("spring", "dofs", dofs(pair)),
             Part::PointMass(dof) => ("point_mass", "dofs", dofs(&[*dof])),

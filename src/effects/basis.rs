@@ -1,6 +1,6 @@
 //! The two matrices of a structure on which laws of the whole structure act, or those of a range of its elements.
 
-use crate::structure::{Structure, SystemMatrices};
+use crate::structure::{DampingOfMode, Structure, SystemMatrices};
 use faer::Mat;
 
 /// Which matrix of the structure a whole-structure law multiplies.
@@ -18,6 +18,30 @@ impl Basis {
         match self {
             Self::Mass => &matrices.mass,
             Self::Stiffness => &matrices.stiffness,
+        }
+    }
+
+    /// The matrix on which laws of the whole structure act, n x n: [`Self::of_system`] with the damping of modes as it is
+    /// corrected ([`crate::structure::mode_damping`]).
+    pub fn of_structure(self, structure: &Structure, matrices: &SystemMatrices) -> Mat<f64> {
+        let mut matrix = self.of_system(matrices).clone();
+        for mode in structure.damping_of_modes() {
+            let (v, size) = (&mode.pattern, self.more_of(mode));
+            matrix += Mat::from_fn(v.len(), v.len(), |i, j| size * v[i] * v[j]);
+        }
+        matrix
+    }
+
+    /// What the matrix of a structure has more of a mode than that of the system, `(f - 1) b`.
+    pub(crate) fn more_of(self, mode: &DampingOfMode) -> f64 {
+        (mode.factor - 1.0) * self.of_mode(mode.square)
+    }
+
+    /// The modal mass or stiffness of a mass-normalised mode of this square of the natural circular frequency, rad^2/s^2.
+    pub(crate) fn of_mode(self, square: f64) -> f64 {
+        match self {
+            Self::Mass => 1.0,
+            Self::Stiffness => square,
         }
     }
 

@@ -210,7 +210,7 @@ pub fn basis_matrix(
     basis: Basis,
 ) -> Result<Mat<f64>, DynamicStiffnessError> {
     let Place::Whole(Some([first, last])) = *place else {
-        return Ok(basis.of_system(matrices).clone());
+        return Ok(basis.of_structure(structure, matrices));
     };
     let count = structure.elements().len();
     if first > last || last >= count {

@@ -35,6 +35,8 @@ pub enum Unknown {
     Mass,
     /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
     ModeStiffness(usize),
+    /// Relative change by 1 of the damping that laws of the whole structure give an undamped mode.
+    ModeDamping(usize),
     /// Relative change by 1 of a part of the structure that has a share of its own in the matrices.
     Part(Part),
     /// Relative change by 1 of force number `.0` of the excitation at all its harmonics.
@@ -118,7 +120,7 @@ fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Re
         }
         Unknown::Stiffness | Unknown::Mass | Unknown::Part(_) => true,
         Unknown::ForceScale(force) => force < forces,
-        Unknown::ModeStiffness(row) => row < size,
+        Unknown::ModeStiffness(row) | Unknown::ModeDamping(row) => row < size,
     };
     let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), forces, size };
     if exists { Ok(()) } else { Err(missing) }
@@ -243,8 +245,14 @@ pub(crate) fn pseudo_force(
     let linear = run.linear();
     let zero = c64::new(0.0, 0.0);
     match unknown {
-        Unknown::Stiffness => Some(linear.apply_matrices(-linear.factors(w)[0], zero, x)),
-        Unknown::Mass => Some(linear.apply_matrices(zero, -linear.factors(w)[1], x)),
+        Unknown::Stiffness | Unknown::Mass => {
+            let (of_mass, [fk, fm]) = (unknown == Unknown::Mass, linear.factors(w));
+            let mut load = if of_mass { linear.apply_matrices(zero, -fm, x) } else { linear.apply_matrices(-fk, zero, x) };
+            let damping = linear.apply_damping_of_modes(w, of_mass, c64::new(-1.0, 0.0), x);
+            load.iter_mut().zip(damping).for_each(|(l, d)| *l += d);
+            Some(load)
+        }
+        Unknown::ModeDamping(mode) => linear.apply_mode_damping(mode, w, x),
         Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
         Unknown::Part(part) => Some(share_force(linear, &linear.structure().share(part)?, x, w)),
         Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),

@@ -7,6 +7,7 @@
 //! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass, a support
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
+use super::mode_damping::modal_pattern;
 use super::system::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
@@ -23,6 +24,8 @@ pub enum Part {
     ElementMass([usize; 2]),
     /// Stiffness of one undamped mode.
     Mode(usize),
+    /// Damping that laws of the whole structure give one undamped mode.
+    ModeDamping(usize),
     /// Spring from a DOF to the ground: the sum of its row.
     GroundSpring(usize),
     /// Spring between two DOFs: minus the entry of the stiffness matrix.
@@ -75,7 +78,7 @@ impl Structure {
             vec![(i, i, value), (j, j, value), (i, j, -value), (j, i, -value)]
         };
         Some(match part {
-            Part::Stiffness | Part::Mass | Part::Mode(_) => return None,
+            Part::Stiffness | Part::Mass | Part::Mode(_) | Part::ModeDamping(_) => return None,
             Part::ElementStiffness(range) => Share::of_stiffness(self.of_elements(range, false)),
             Part::ElementMass(range) => Share::of_mass(self.of_elements(range, true)),
             Part::GroundSpring(i) => Share::of_stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
@@ -176,6 +179,7 @@ impl Structure {
             }
         }
         changed.matrices = Some(matrices);
+        changed.correct_damping(factors);
         changed
     }
 
@@ -204,8 +208,7 @@ impl Structure {
         for &(part, factor) in factors {
             let Part::Mode(r) = part else { continue };
             let shape = modes.shapes.col_as_slice(r);
-            let row = |i: usize| matrices.mass.col_as_slice(i).iter().zip(shape).map(|(m, x)| m * x).sum::<f64>();
-            let weighted: Vec<f64> = (0..n).map(row).collect();
+            let weighted = modal_pattern(matrices, shape);
             let size = (factor - 1.0) * modes.omega[r].powi(2);
             for j in 0..n {
                 for i in 0..n {

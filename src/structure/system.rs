@@ -1,5 +1,6 @@
 //! A structure: its degrees of freedom, matrices and elements, and how it came about.
 
+use super::mode_damping::DampingOfMode;
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::reduction::outcome::Reduction;
@@ -62,6 +63,8 @@ pub struct Origin {
     pub reduction: Option<Reduction>,
     /// Mass of a component that moves with its force cell, kg.
     pub component_mass: f64,
+    /// Modes whose damping by laws of the whole structure is corrected.
+    pub damping_of_modes: Vec<DampingOfMode>,
 }
 
 impl Structure {

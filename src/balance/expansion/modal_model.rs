@@ -7,7 +7,6 @@
 
 use crate::balance::action::Secant;
 use crate::balance::error::BalanceError;
-use crate::effects::Basis;
 use crate::math::fill::{filled, filled_complex};
 use crate::structure::lowest_modes::{LowestModes, Rest};
 use crate::structure::modes::Modes;
@@ -149,7 +148,7 @@ impl ModalModel {
             }
             Secant::Whole(basis, None, factor) => {
                 for k in 0..m {
-                    z[(k, k)] += factor * if *basis == Basis::Mass { 1.0 } else { self.modes.omega[k].powi(2) };
+                    z[(k, k)] += factor * structure.mode_damping(k) * basis.of_mode(self.modes.omega[k].powi(2));
                 }
             }
             Secant::Whole(basis, Some(range), factor) => {

@@ -92,7 +92,7 @@ pub(crate) fn whole_matrix(structure: &Structure, source: &Source) -> Option<Mat
     let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) else { return None };
     let matrices = structure.matrices()?;
     Some(match *range {
-        None => law.basis().of_system(matrices).clone(),
+        None => law.basis().of_structure(structure, matrices),
         Some(range) => law.basis().of_elements(structure, range),
     })
 }

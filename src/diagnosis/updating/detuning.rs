@@ -115,8 +115,8 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
     let updating = &reference.linearisation.updating;
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
         UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
+        UpdatingParameter::Known(_) | UpdatingParameter::Structure(Part::ModeDamping(_)) => v.abs() < LIKELY_SIZE,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
-        UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
         UpdatingParameter::Gain(_)
         | UpdatingParameter::ForceGain(_)
         | UpdatingParameter::Delay(_)

@@ -5,7 +5,7 @@
 //! parameter is the logarithm `v` of a factor (a delay: seconds) with the prior `N(0, s^2)`; `s` belongs to its class
 //! ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and Mottershead 1995, chapter 8).
 
-use super::parts::parts;
+use super::parts::{damped_modes, parts};
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Effect, Place, Source};
 use crate::response::sensitivity::Unknown;
@@ -60,26 +60,28 @@ pub struct Scales {
     pub response: f64,
     /// Stiffness from session to session, relative.
     pub session: f64,
+    /// Damping of single modes, relative.
+    pub damping: f64,
 }
 
 impl Scales {
     /// Those of the search, before they are estimated beside each candidate: wide enough for what laboratories report,
     /// narrow enough that they leave to an effect what is an effect's.
     pub const SEARCH: Self =
-        Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3, session: 5e-4 };
+        Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3, session: 5e-4, damping: 0.2 };
     /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
     pub const START: Self =
-        Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3, session: 2e-4 };
+        Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3, session: 2e-4, damping: 0.1 };
     /// Least: below any measurement.
     pub const LEAST: Self =
-        Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7, session: 1e-8 };
+        Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7, session: 1e-8, damping: 1e-5 };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
     pub const GREATEST: Self =
-        Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1, session: 0.02 };
+        Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1, session: 0.02, damping: 0.5 };
 
     /// The same scales in a list, in the order of the fields.
-    pub fn list(&self) -> [f64; 7] {
-        [self.model, self.known, self.gain, self.phase, self.shift, self.response, self.session]
+    pub fn list(&self) -> [f64; 8] {
+        [self.model, self.known, self.gain, self.phase, self.shift, self.response, self.session, self.damping]
     }
 
     /// Minus twice the logarithm of their prior density, half-Cauchy about where they start.
@@ -96,11 +98,11 @@ impl Scales {
     }
 
     /// Scales from such a list, each kept between the least and the greatest.
-    pub fn from_list(list: [f64; 7]) -> Self {
+    pub fn from_list(list: [f64; 8]) -> Self {
         let (least, greatest) = (Self::LEAST.list(), Self::GREATEST.list());
-        let [model, known, gain, phase, shift, response, session] =
+        let [model, known, gain, phase, shift, response, session, damping] =
             std::array::from_fn(|k| list[k].clamp(least[k], greatest[k]));
-        Self { model, known, gain, phase, shift, response, session }
+        Self { model, known, gain, phase, shift, response, session, damping }
     }
 }
 
@@ -110,6 +112,7 @@ impl UpdatingParameter {
         match self {
             // A support is known about as well as the size of a source.
             Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
+            Self::Structure(Part::ModeDamping(_)) => 7,
             Self::Structure(_) | Self::Shape { .. } => 0,
             Self::Gain(_) | Self::ForceGain(_) => 2,
             Self::Delay(_) => 3,
@@ -167,6 +170,7 @@ impl Updating {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
         let mut parameters: Vec<UpdatingParameter> = parts(structure, &omegas)
             .into_iter()
+            .chain(damped_modes(structure, known, &omegas))
             .filter(|part| !data.is_ruled_out(*part))
             .map(UpdatingParameter::Structure)
             .collect();
@@ -357,6 +361,7 @@ fn unknown(part: Part) -> Unknown {
         Part::Stiffness => Unknown::Stiffness,
         Part::Mass => Unknown::Mass,
         Part::Mode(r) => Unknown::ModeStiffness(r),
+        Part::ModeDamping(r) => Unknown::ModeDamping(r),
         part => Unknown::Part(part),
     }
 }

@@ -1,5 +1,6 @@
 //! Parts of a structure whose stiffness and mass a model may state wrongly.
 
+use crate::effects::{Place, Source};
 use crate::structure::{Part, Structure, StructureKind};
 
 /// Groups of elements of a beam whose stiffness and mass are updated each on its own.
@@ -38,6 +39,16 @@ pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
         parts.extend((0..structure.len()).map(Part::PointMass));
     }
     parts
+}
+
+/// Modes whose damping by laws of the whole structure is known no better than those laws: no structure damps its modes in just
+/// the proportion that they state. One mode alone is damped by their size.
+pub(crate) fn damped_modes(structure: &Structure, known: &[Source], omegas: &[f64]) -> Vec<Part> {
+    if !known.iter().any(|source| source.place == Place::Whole(None)) {
+        return Vec::new();
+    }
+    let modes = modes_in_band(structure, omegas);
+    if modes.len() > 1 { modes.into_iter().map(Part::ModeDamping).collect() } else { Vec::new() }
 }
 
 /// Modes whose frequencies the runs come near to.

@@ -15,6 +15,7 @@ pub enum Corrected {
     Stiffness,
     Mass,
     Mode,
+    ModeDamping,
     Spring,
     PointMass,
     ElementStiffness,
@@ -23,14 +24,24 @@ pub enum Corrected {
 }
 
 impl Corrected {
-    const WORDS: [&'static str; 8] =
-        ["stiffness", "mass", "mode", "spring", "point_mass", "element_stiffness", "element_mass", "support"];
+    const WORDS: [&'static str; 9] = [
+        "stiffness",
+        "mass",
+        "mode",
+        "mode_damping",
+        "spring",
+        "point_mass",
+        "element_stiffness",
+        "element_mass",
+        "support",
+    ];
 
     fn from_word(word: &str) -> Option<Self> {
         let all = [
             Self::Stiffness,
             Self::Mass,
             Self::Mode,
+            Self::ModeDamping,
             Self::Spring,
             Self::PointMass,
             Self::ElementStiffness,
@@ -73,6 +84,7 @@ impl CorrectionTable {
             Part::Stiffness => plain(Corrected::Stiffness),
             Part::Mass => plain(Corrected::Mass),
             Part::Mode(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::Mode) },
+            Part::ModeDamping(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::ModeDamping) },
             Part::GroundSpring(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::Spring) },
             Part::Coupling(pair) => Self { dofs: pair.map(label).to_vec(), ..plain(Corrected::Spring) },
             Part::PointMass(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::PointMass) },
@@ -104,17 +116,19 @@ impl CorrectionTable {
             let value = format!("[{first}, {last}]");
             Err(Problem::OutOfRange { key: "elements".into(), value, range: "first to last element of the beam" })
         };
+        let mode = || match self.mode {
+            Some(mode) if mode >= 1 && mode <= structure.len() as i64 => Ok(mode as usize - 1),
+            Some(mode) => {
+                let value = mode.to_string();
+                Err(Problem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" })
+            }
+            None => Err(missing("mode", "mode = 2")),
+        };
         Ok(match self.what {
             Corrected::Stiffness => Part::Stiffness,
             Corrected::Mass => Part::Mass,
-            Corrected::Mode => match self.mode {
-                Some(mode) if mode >= 1 && mode <= structure.len() as i64 => Part::Mode(mode as usize - 1),
-                Some(mode) => {
-                    let value = mode.to_string();
-                    return Err(Problem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" });
-                }
-                None => return Err(missing("mode", "mode = 2")),
-            },
+            Corrected::Mode => Part::Mode(mode()?),
+            Corrected::ModeDamping => Part::ModeDamping(mode()?),
             Corrected::Spring => match &self.dofs[..] {
                 [one] => Part::GroundSpring(dof(one)?),
                 [first, second] => Part::Coupling([dof(first)?, dof(second)?]),

@@ -10,7 +10,7 @@ use super::error::ModelError;
 use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
 use crate::effects::{Basis, Kind, Leg, Source, place::Place};
-use crate::structure::{Structure, SystemMatrices};
+use crate::structure::{DampingOfMode, Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
 use faer::{Mat, c64};
 use std::sync::Arc;
@@ -90,13 +90,43 @@ impl LinearPart {
     /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts.
     pub(crate) fn apply_whole(&self, source: &Source, factor: c64, x: &[c64]) -> Vec<c64> {
         let own = self.whole.iter().find(|(s, _)| s.place == source.place && s.effect == source.effect);
-        let matrices = self.matrices();
-        let matrix = match (own, source.effect.kind()) {
-            (Some((_, Some(own))), _) => own,
-            (_, Kind::Whole(law)) if law.basis() == Basis::Mass => &matrices.mass,
-            _ => &matrices.stiffness,
-        };
-        multiply(matrix, factor, x)
+        let Kind::Whole(law) = source.effect.kind() else { return vec![c64::new(0.0, 0.0); x.len()] };
+        if let Some((_, Some(own))) = own {
+            return multiply(own, factor, x);
+        }
+        let mut result = multiply(law.basis().of_system(self.matrices()), factor, x);
+        for mode in self.structure.damping_of_modes() {
+            add_along(&mode.pattern, factor * law.basis().more_of(mode), x, &mut result);
+        }
+        result
+    }
+
+    /// What laws of the whole structure add to the dynamic stiffness of the corrected damping of a mode, beyond what they give
+    /// through `K` and `M`, N/(m kg): its shares by stiffness and by mass.
+    fn damping_of(&self, mode: &DampingOfMode, omega: f64) -> [c64; 2] {
+        let [by_stiffness, by_mass] = self.damping_factors(omega);
+        [by_stiffness * self.stiffness * Basis::Stiffness.more_of(mode), by_mass * Basis::Mass.more_of(mode)]
+    }
+
+    /// What the corrected damping of modes adds to `Z x` and depends on all stiffness or, else, on all mass.
+    pub(crate) fn apply_damping_of_modes(&self, omega: f64, of_mass: bool, factor: c64, x: &[c64]) -> Vec<c64> {
+        let mut result = vec![c64::new(0.0, 0.0); x.len()];
+        for mode in self.structure.damping_of_modes() {
+            let size = self.damping_of(mode, omega)[usize::from(of_mass)];
+            add_along(&mode.pattern, factor * size, x, &mut result);
+        }
+        result
+    }
+
+    /// `-f_r z_r (M phi_r)(M phi_r)^T x`: the pseudo-force of a mode whose damping by laws of the whole structure grows; `None` without
+    /// such a mode.
+    pub(crate) fn apply_mode_damping(&self, mode: usize, omega: f64, x: &[c64]) -> Option<Vec<c64>> {
+        let square = *self.basis.squares.get(mode)?;
+        let [by_stiffness, by_mass] = self.damping_factors(omega);
+        let size = (by_stiffness * (self.stiffness * square) + by_mass) * self.structure.mode_damping(mode);
+        let mut result = vec![c64::new(0.0, 0.0); x.len()];
+        add_along(&self.times_mass(self.basis.shape(mode)), -size, x, &mut result);
+        Some(result)
     }
 
     /// `(stiffness K + mass M) x` for the two given factors.
@@ -116,9 +146,9 @@ impl LinearPart {
     /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
     pub(crate) fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
         let square = *self.basis.squares.get(mode)?;
-        let weighted = self.times_mass(self.basis.shape(mode));
-        let amplitude = weighted.iter().zip(x).fold(c64::new(0.0, 0.0), |s, (w, x)| s + *x * *w);
-        Some(weighted.iter().map(|w| amplitude * (*w * -square)).collect())
+        let mut result = vec![c64::new(0.0, 0.0); x.len()];
+        add_along(&self.times_mass(self.basis.shape(mode)), c64::new(-square, 0.0), x, &mut result);
+        Some(result)
     }
 
     /// `M x`.
@@ -138,13 +168,20 @@ impl LinearPart {
         if omega == 0.0 {
             factors[0].im = 0.0;
         }
+        factors.iter_mut().zip(self.damping_factors(omega)).for_each(|(f, damping)| *f += damping);
+        factors[0] *= self.stiffness;
+        factors
+    }
+
+    /// What laws of the whole structure add to the factors of `K` and `M`.
+    fn damping_factors(&self, omega: f64) -> [c64; 2] {
+        let mut factors = [c64::new(0.0, 0.0); 2];
         for (source, own) in &self.whole {
             if let (Kind::Whole(law), None) = (source.effect.kind(), own) {
                 let index = usize::from(law.basis() == Basis::Mass);
                 factors[index] += law.factor(source.parameters[0], omega);
             }
         }
-        factors[0] *= self.stiffness;
         factors
     }
 
@@ -159,6 +196,10 @@ impl LinearPart {
                 z += Mat::from_fn(self.len(), self.len(), |i, j| factor * own[(i, j)]);
             }
         }
+        for mode in self.structure.damping_of_modes() {
+            let (v, size) = (&mode.pattern, self.damping_of(mode, omega).iter().sum::<c64>());
+            z += Mat::from_fn(self.len(), self.len(), |i, j| size * (v[i] * v[j]));
+        }
         z
     }
 
@@ -172,7 +213,7 @@ impl LinearPart {
         // A sweep asks each frequency for a few entries only.
         let modal = self.len() > DENSE || !apart || summed;
         let inverse = if modal && self.whole.iter().all(|(_, own)| own.is_none()) {
-            self.modal_inverse(factors, &modes)
+            self.modal_inverse(omega, factors, &modes)
         } else {
             self.dense_inverse(omega, &modes)
         };
@@ -185,8 +226,11 @@ impl LinearPart {
         Compliance { inverse, resonant, apart }
     }
 
-    fn modal_inverse(&self, [fk, fm]: [c64; 2], damped: &[usize]) -> Inverse {
+    fn modal_inverse(&self, omega: f64, [fk, fm]: [c64; 2], damped: &[usize]) -> Inverse {
         let mut stiffness: Vec<c64> = self.basis.squares.iter().map(|&square| fk * square + fm).collect();
+        for mode in self.structure.damping_of_modes() {
+            stiffness[mode.mode] += self.damping_of(mode, omega).iter().sum::<c64>();
+        }
         for &r in damped {
             stiffness[r] += damping(&self.basis, r);
         }
@@ -286,6 +330,12 @@ impl Inverse {
 }
 
 /// `factor B x`.
+/// Adds `factor v v^T x` to `result`.
+fn add_along(v: &[f64], factor: c64, x: &[c64], result: &mut [c64]) {
+    let along = v.iter().zip(x).fold(c64::new(0.0, 0.0), |sum, (v, x)| sum + *x * *v);
+    result.iter_mut().zip(v).for_each(|(r, v)| *r += factor * along * *v);
+}
+
 fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
     let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
     for (j, &value) in x.iter().enumerate() {

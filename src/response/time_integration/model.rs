@@ -343,7 +343,7 @@ fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
     };
     let factor = source.parameters[0];
     let Some(range) = *range else {
-        let matrix = law.basis().of_system(matrices);
+        let matrix = law.basis().of_structure(structure, matrices);
         *damping += Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| factor * matrix[(i, j)]);
         return;
     };
