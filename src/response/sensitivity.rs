@@ -247,7 +247,8 @@ pub(crate) fn pseudo_force(
     match unknown {
         Unknown::Stiffness | Unknown::Mass => {
             let (of_mass, [fk, fm]) = (unknown == Unknown::Mass, linear.factors(w));
-            let mut load = if of_mass { linear.apply_matrices(zero, -fm, x) } else { linear.apply_matrices(-fk, zero, x) };
+            let mut load =
+                if of_mass { linear.apply_matrices(zero, -fm, x) } else { linear.apply_matrices(-fk, zero, x) };
             let damping = linear.apply_damping_of_modes(w, of_mass, c64::new(-1.0, 0.0), x);
             load.iter_mut().zip(damping).for_each(|(l, d)| *l += d);
             Some(load)

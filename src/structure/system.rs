@@ -1,8 +1,8 @@
 //! A structure: its degrees of freedom, matrices and elements, and how it came about.
 
-use super::mode_damping::DampingOfMode;
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
+use super::mode_damping::DampingOfMode;
 use super::reduction::outcome::Reduction;
 use faer::Mat;
 use serde::{Deserialize, Serialize};

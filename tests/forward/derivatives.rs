@@ -150,13 +150,54 @@ fn the_structure() {
     }
 }
 
+/// Damping of single modes, of a structure where it is corrected already: beside viscous and hysteretic laws, with parts and
+/// laws themselves differentiated as well.
+#[test]
+fn the_damping_of_modes() {
+    let sources = [
+        whole(Effect::StiffnessProportional, 2e-5),
+        whole(Effect::MassProportional, 1.5),
+        whole(Effect::LossFactor, 0.004),
+        source(Effect::Quadratic, &[2], &[2000.0]),
+    ];
+    let built = |more: &[(Part, f64)]| {
+        let corrected = [(Part::ModeDamping(1), 1.7), (Part::ModeDamping(2), 0.6)];
+        five_masses().with_factors(&[&corrected[..], more].concat())
+    };
+    let parts: Vec<Part> = (0..4).map(Part::ModeDamping).chain([Part::Stiffness, Part::Mass]).collect();
+    let unknown = |part: &Part| match part {
+        Part::ModeDamping(mode) => Unknown::ModeDamping(*mode),
+        Part::Stiffness => Unknown::Stiffness,
+        _ => Unknown::Mass,
+    };
+    let sizes = (0..3).map(|source| Unknown::Source { source, parameter: 0 });
+    let unknowns: Vec<Unknown> = parts.iter().map(unknown).chain(sizes).collect();
+    let (response, derivatives) = derived(&built(&[]), &sources, &unknowns);
+    for (part, derivative) in parts.iter().zip(&derivatives) {
+        let moved = |factor: f64| solved(&built(&[(*part, factor)]), &sources, Some(&response));
+        let error = mismatch(derivative, &moved(1.0 + 1e-5), &moved(1.0 - 1e-5), 1e-5);
+        assert!(error < 1e-4, "{part:?}: {error:.2e}");
+    }
+    for (k, derivative) in derivatives[parts.len()..].iter().enumerate() {
+        let (value, step) = (sources[k].parameters[0], 1e-4 * sources[k].parameters[0]);
+        let moved = |value: f64| solved(&built(&[]), &with_parameter(&sources, k, 0, value), Some(&response));
+        let error = mismatch(derivative, &moved(value + step), &moved(value - step), step);
+        assert!(error < 1e-4, "size of {}: {error:.2e}", sources[k].effect);
+    }
+}
+
 #[test]
 fn unknowns_that_do_not_exist_are_named() {
     let structure = five_masses();
     let sources = [whole(Effect::MassProportional, 1.0)];
     let response = balanced(&structure, &sources, &excitation(), &settings());
     let run = ForwardModel::new(&structure, &sources).unwrap().at(excitation().omega);
-    for unknown in [Unknown::Source { source: 1, parameter: 0 }, Unknown::ForceScale(1), Unknown::ModeStiffness(7)] {
+    for unknown in [
+        Unknown::Source { source: 1, parameter: 0 },
+        Unknown::ForceScale(1),
+        Unknown::ModeStiffness(7),
+        Unknown::ModeDamping(7),
+    ] {
         let error =
             sensitivities(&run, &sources, &excitation(), &response, &(0..run.len()).collect::<Vec<_>>(), &[unknown])
                 .unwrap_err();

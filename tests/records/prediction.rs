@@ -40,6 +40,7 @@ impl Case {
             channels: &self.channels,
             factors: self.factors,
             mode_stiffness: &[],
+            mode_damping: &[],
             shape_errors: &self.shape_errors,
             parts: &self.parts,
             directions: &self.directions,
@@ -70,6 +71,9 @@ impl Case {
             TransientParameter::Direction(k) => {
                 let weights = &case.directions[k];
                 case.parts.iter_mut().zip(weights).for_each(|((_, v), w)| *v += w * by);
+            }
+            TransientParameter::ModeDamping(mode) => {
+                case.structure = case.structure.with_factors(&[(Part::ModeDamping(mode), by.exp())]);
             }
             TransientParameter::Mode(_) => unreachable!("not moved here"),
         }

@@ -4,7 +4,7 @@ use super::amplitude::peaks;
 use super::part_directions::PartDirections;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
-use crate::effects::{Kind as EffectKind, Source, State};
+use crate::effects::{Kind as EffectKind, Place, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::{median, root_mean_square};
 use crate::measurement::{Channel, Kind, TransientRun};
@@ -196,16 +196,16 @@ impl<'a> Records<'a> {
     }
 
     /// The model of a record with these sources and factors on stiffness and mass, and logarithms of those on the
-    /// stiffness of single modes; `shape_errors` of the sensors.
+    /// stiffness and the damping of single modes; `shape_errors` of the sensors.
     pub(crate) fn model(
         &self,
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
-        (mode_stiffness, parts, shape_errors): (&[f64], &[(Part, f64)], &[Vec<f64>]),
+        (modes, parts, shape_errors): ([&[f64]; 2], &[(Part, f64)], &[Vec<f64>]),
     ) -> Result<TransientModel, RecordError> {
         let shape_errors = &self.shape_errors(record, shape_errors);
-        let setup = self.setup(record, sources, factors, (mode_stiffness, parts));
+        let setup = self.setup(record, sources, factors, (modes, parts));
         let directions = &self.parts.weights;
         TransientModel::new(&TransientSetup { directions, shape_errors, ..setup })
             .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
@@ -217,7 +217,7 @@ impl<'a> Records<'a> {
         record: &'s RecordData,
         sources: &'s [Source],
         factors: [f64; 2],
-        (mode_stiffness, parts): (&'s [f64], &'s [(Part, f64)]),
+        ([mode_stiffness, mode_damping], parts): ([&'s [f64]; 2], &'s [(Part, f64)]),
     ) -> TransientSetup<'s> {
         TransientSetup {
             structure: self.structure,
@@ -228,6 +228,7 @@ impl<'a> Records<'a> {
             channels: &record.channels,
             factors,
             mode_stiffness,
+            mode_damping,
             parts,
             directions: &[],
             step: [record.step, record.step / record.substeps.max(1) as f64],
@@ -237,6 +238,18 @@ impl<'a> Records<'a> {
 }
 
 impl Records<'_> {
+    /// Modes whose damping by laws of the whole structure is corrected each by itself: no structure damps its modes in just the
+    /// proportion that these laws state. One mode alone is damped by their size.
+    pub(super) fn damped(&self) -> usize {
+        let whole = self.known.iter().any(|source| source.place == Place::Whole(None));
+        if whole && self.kept > 1 { self.kept } else { 0 }
+    }
+
+    /// Corrections of sizes: of the known sources and of the damping of modes.
+    pub(super) fn sizes(&self) -> usize {
+        self.known.len() + self.damped()
+    }
+
     /// Number of samples of all channels of all records.
     pub(super) fn samples(&self) -> usize {
         self.list.iter().map(|r| r.len() * r.channels.len()).sum()

@@ -240,7 +240,7 @@ impl Search<'_> {
 /// Whether a fit leaves no more than noise, of which a model without effects leaves up to `least`, and that with corrections that can
 /// be.
 fn agrees(fit: &FittedRecords, least: f64) -> bool {
-    let count = 2 + fit.known.len() + fit.modes.len() + fit.parts.len();
+    let count = 2 + fit.known.len() + fit.damping.len() + fit.modes.len() + fit.parts.len();
     let enough = if fit.effects.is_empty() { least } else { ENOUGH.max(least) };
     let plausible = corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64);
     misfit(fit) < enough && plausible && (!fit.effects.is_empty() || !is_strained(fit))

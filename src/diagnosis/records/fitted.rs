@@ -15,6 +15,9 @@ pub(crate) struct FittedRecords {
     pub stiffness: f64,
     /// Logarithms of the factors on the known sources.
     pub known: Vec<f64>,
+    /// Logarithms of the factors on the damping that laws of the whole structure give the followed modes; empty where it is not
+    /// corrected.
+    pub damping: Vec<f64>,
     /// Logarithms of the factors on the stiffness of the followed modes.
     pub modes: Vec<f64>,
     /// Logarithm of the factor on all mass.
@@ -37,7 +40,8 @@ pub(crate) struct FittedRecords {
     pub count: usize,
     /// Samples over which what a model leaves stays alike, because it is an error of the model ([`super::evidence`]); at least 1.
     pub alike: f64,
-    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the modes, of mass and of
+    /// Standard deviations of the parameters of the effects, then of stiffness, of the known sources, of the damping and
+    /// the stiffness of the modes, of mass and of
     /// the shapes, in units of the noise that was stated.
     pub deviations: Vec<f64>,
     /// What is left, over the noise: `[record][channel][sample]`.
@@ -51,6 +55,7 @@ impl FittedRecords {
             effects: effects.to_vec(),
             stiffness: 0.0,
             known: vec![0.0; records.known.len()],
+            damping: vec![0.0; records.damped()],
             modes: vec![0.0; records.kept],
             mass: 0.0,
             parts: vec![0.0; records.parts.len()],
@@ -92,8 +97,12 @@ impl FittedRecords {
     ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let parts = records.parts.logarithms(&self.parts);
-        let model =
-            records.model(record, &self.sources(records), self.factors(r), (&self.modes, &parts, &self.shapes))?;
+        let model = records.model(
+            record,
+            &self.sources(records),
+            self.factors(r),
+            ([&self.modes, &self.damping], &parts, &self.shapes),
+        )?;
         let forces = record.excitation(samples, model.is_linear());
         let mut response = model
             .predict(&forces, &self.initial[r], parameters)
@@ -134,6 +143,7 @@ impl FittedRecords {
             effects,
             stiffness: 0.0,
             known: Vec::new(),
+            damping: Vec::new(),
             modes: Vec::new(),
             mass: 0.0,
             parts: Vec::new(),

@@ -52,7 +52,7 @@ impl Records<'_> {
         if noise.iter().all(|s| *s <= 0.0) {
             return None;
         }
-        let model = self.model(record, &self.known, [1.0; 2], (&[], &[], &[])).ok()?;
+        let model = self.model(record, &self.known, [1.0; 2], ([&[]; 2], &[], &[])).ok()?;
         let trusted = trusted(record, &model);
         let mut variances = vec![vec![0.0; record.len()]; record.channels.len()];
         let mut lengths = vec![0.0_f64; record.channels.len()];

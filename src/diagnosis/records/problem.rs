@@ -9,10 +9,10 @@ use super::fitted::FittedRecords;
 use super::part_directions::{ALL, MODE};
 use super::variables::{at_variable, variable};
 use crate::control::Control;
-use crate::diagnosis::updating::detuning::LIKELY_SIZE;
+use crate::diagnosis::updating::detuning::{LIKELY_MODE_DAMPING, LIKELY_SIZE};
 use crate::response::transient::TransientParameter;
 
-/// Prior deviation of the logarithm of all stiffness, of the size of a known source, of the stiffness of one record, of that of
+/// Prior deviation of the logarithm of all stiffness, of the size of a known source or the damping of a mode, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
 const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Largest change of a logarithm in one step.
@@ -21,7 +21,7 @@ const REACH: f64 = 1.0;
 /// What is free beside the initial states and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Free {
-    /// All stiffness, then the size of every known source, then the stiffness of every mode, then all mass, at last the parts; none
+    /// All stiffness, then the size of every known source, then the damping and the stiffness of every mode, then all mass, at last the parts; none
     /// where it is empty.
     pub corrections: Vec<bool>,
     /// The shift of every record.
@@ -41,7 +41,7 @@ impl Free {
     /// All of it but the stiffness of single modes.
     pub(super) fn but_modes(records: &Records) -> Self {
         let mut free = Self::all(records);
-        let first = 1 + records.known.len();
+        let first = 1 + records.sizes();
         free.corrections[first..first + modes(records)].fill(false);
         free.corrections[first + modes(records) + 1..].fill(false);
         free
@@ -49,9 +49,9 @@ impl Free {
 
     /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not.
     pub(super) fn all(records: &Records) -> Self {
-        let mut corrections = vec![true; 2 + records.known.len() + modes(records) + records.parts.len()];
+        let mut corrections = vec![true; 2 + records.sizes() + modes(records) + records.parts.len()];
         let driven = records.list.iter().any(|r| !r.forces.is_empty());
-        corrections[1 + records.known.len() + modes(records)] = driven && !records.parts.is_empty();
+        corrections[1 + records.sizes() + modes(records)] = driven && !records.parts.is_empty();
         Self { corrections, shifts: true, shapes: true, effects: true }
     }
 }
@@ -69,6 +69,7 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
     let count = fit.shapes.iter().map(Vec::len).sum::<usize>().max(1) as f64;
     square(&[fit.stiffness], PRIORS[0])
         + square(&fit.known, PRIORS[1])
+        + square(&fit.damping, PRIORS[1])
         + square(&fit.modes, PRIORS[3])
         + square(&[fit.mass], PRIORS[4])
         + square(&fit.parts, 1.0)
@@ -82,6 +83,7 @@ pub(super) fn beyond_priors(fit: &FittedRecords) -> FittedRecords {
     FittedRecords {
         stiffness: told(fit.stiffness, PRIORS[0]),
         known: each(&fit.known, PRIORS[1]),
+        damping: each(&fit.damping, PRIORS[1]),
         modes: each(&fit.modes, PRIORS[3]),
         mass: told(fit.mass, PRIORS[4]),
         parts: each(&fit.parts, 1.0),
@@ -89,9 +91,9 @@ pub(super) fn beyond_priors(fit: &FittedRecords) -> FittedRecords {
     }
 }
 
-/// Whether a known source is off by more than is believed without looking for an effect: then it stands for something else.
+/// Whether a known source or the damping of a mode is off by more than is believed without looking for an effect: then it stands for something else.
 pub(super) fn is_strained(fit: &FittedRecords) -> bool {
-    fit.known.iter().any(|v| v.abs() > LIKELY_SIZE)
+    fit.known.iter().any(|v| v.abs() > LIKELY_SIZE) || fit.damping.iter().any(|v| v.abs() > LIKELY_MODE_DAMPING)
 }
 
 /// A fit to the first part of every record.
@@ -122,7 +124,7 @@ impl FitProblem<'_> {
 
     /// Number of the variable of all mass, which those of the parts follow.
     pub(super) fn mass_variable(&self, at: &FittedRecords) -> usize {
-        self.first_correction(at) + 1 + self.records.known.len() + modes(self.records)
+        self.first_correction(at) + 1 + self.records.sizes() + modes(self.records)
     }
 
     /// Number of the variable of the shape of mode 0 at a sensor; none where shapes are held.
@@ -159,11 +161,11 @@ impl FitProblem<'_> {
         }
         if !self.free.corrections.is_empty() {
             next.stiffness += change[k].clamp(-0.1, 0.1);
-            for (j, v) in next.known.iter_mut().enumerate() {
+            for (j, v) in next.known.iter_mut().chain(&mut next.damping).enumerate() {
                 *v += change[k + 1 + j].clamp(-0.5, 0.5);
             }
             for r in 0..modes(self.records) {
-                next.modes[r] += change[k + 1 + at.known.len() + r].clamp(-0.1, 0.1);
+                next.modes[r] += change[k + 1 + self.records.sizes() + r].clamp(-0.1, 0.1);
             }
             let mass = self.mass_variable(at);
             next.mass += change[mass].clamp(-0.1, 0.1);
@@ -227,8 +229,11 @@ impl FitProblem<'_> {
                     list.push((unknown, k + 1 + source, known.parameters[parameter]));
                 }
             }
-            let modes = (0..modes(self.records)).filter(|r| free(1 + offset + r));
-            list.extend(modes.map(|r| (TransientParameter::Mode(r), k + 1 + offset + r, 1.0)));
+            let damped = (0..self.records.damped()).filter(|r| free(1 + offset + r));
+            list.extend(damped.map(|r| (TransientParameter::ModeDamping(r), k + 1 + offset + r, 1.0)));
+            let first = 1 + self.records.sizes();
+            let modes = (0..modes(self.records)).filter(|r| free(first + r));
+            list.extend(modes.map(|r| (TransientParameter::Mode(r), k + first + r, 1.0)));
             let mass = self.mass_variable(at) - k;
             if free(mass) {
                 list.push((TransientParameter::Mass, k + mass, 1.0));
@@ -253,8 +258,10 @@ impl FitProblem<'_> {
         if !self.free.corrections.is_empty() {
             let mode = self.beside_parts(PRIORS[3]);
             list.push((laws, at.stiffness, PRIORS[0]));
-            list.extend(at.known.iter().enumerate().map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
-            list.extend((0..modes(self.records)).map(|r| (laws + 1 + at.known.len() + r, at.modes[r], mode)));
+            let sizes = at.known.iter().chain(&at.damping).enumerate();
+            list.extend(sizes.map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
+            let first = laws + 1 + self.records.sizes();
+            list.extend((0..modes(self.records)).map(|r| (first + r, at.modes[r], mode)));
             let mass = self.mass_variable(at);
             list.push((mass, at.mass, PRIORS[4]));
             list.extend(at.parts.iter().enumerate().map(|(p, v)| (mass + 1 + p, *v, 1.0)));

@@ -72,10 +72,15 @@ impl<'a> Regression<'a> {
         let mut stiffness = vec![Vec::new(); modes];
         let mut coupled = vec![Vec::new(); pairs.len()];
         let mut driven = vec![Vec::new(); modes];
+        let mut damped = vec![Vec::new(); if records.damped() > 0 { modes } else { 0 }];
         let factor = fit.stiffness.exp();
         for part in &made {
             let mut works = Works::new(records.structure, &part.motion);
-            let forces: Vec<Vec<Vec<f64>>> = sources.iter().map(|s| works.modal_force(s)).collect();
+            let mut forces: Vec<Vec<Vec<f64>>> = sources.iter().map(|s| works.modal_force(s)).collect();
+            let whole = damp(&mut forces, &sources, &part.motion.band.modes, &fit.damping);
+            for (r, all) in damped.iter_mut().enumerate() {
+                all.extend(part.rows_of(r, whole.get(r), whole.len()));
+            }
             let list = forces.iter().map(|f| part.rows(f));
             list.zip(&mut known).for_each(|(rows, all)| all.extend(rows));
             let Equation { elastic, pushed, balance } = part.equation(factor);
@@ -95,8 +100,9 @@ impl<'a> Regression<'a> {
         }
         let stiff = stiffness.into_iter().map(|rows| (rows, PRIORS[0]));
         let sized = known.into_iter().take(records.known.len()).map(|rows| (rows, PRIORS[1]));
+        let damped = damped.into_iter().map(|rows| (rows, PRIORS[1]));
         let shaped = coupled.into_iter().chain(driven).map(|rows| (rows, PRIORS[2]));
-        let lists: Vec<(Vec<f64>, f64)> = stiff.chain(sized).chain(shaped).collect();
+        let lists: Vec<(Vec<f64>, f64)> = stiff.chain(sized).chain(damped).chain(shaped).collect();
         measured.resize(rows + lists.len(), 0.0);
         let base = Self {
             records,
@@ -139,9 +145,9 @@ impl<'a> Regression<'a> {
         self.left.len()
     }
 
-    /// Relative changes of the stiffness of the followed modes and of the sizes of the known sources that fit best, beside a law
-    /// or without one.
-    pub(super) fn corrections(&self, law: Option<&Source>) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// Relative changes of the stiffness of the followed modes, of the sizes of the known sources and of the damping of the modes that
+    /// fit best, beside a law or without one.
+    pub(super) fn corrections(&self, law: Option<&Source>) -> Option<[Vec<f64>; 3]> {
         let band = &self.parts[0].motion.band.modes;
         if self.parts.iter().any(|p| p.motion.band.modes != *band) {
             return None;
@@ -163,19 +169,23 @@ impl<'a> Regression<'a> {
         let rhs = Mat::from_fn(count, 1, |i, _| dot(of(i), &left));
         let solved = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
         let value = |i: usize| (solved[(i, 0)] * self.columns[i].1).clamp(-MOST_CHANGE, MOST_CHANGE);
-        let mut modes = vec![0.0; self.records.kept];
-        for (r, mode) in band.iter().enumerate().filter(|(_, mode)| **mode < self.records.kept) {
-            modes[*mode] = value(r);
-        }
+        let of_modes = |count: usize, first: usize| {
+            let mut list = vec![0.0; count];
+            for (r, mode) in band.iter().enumerate().filter(|(_, mode)| **mode < count) {
+                list[*mode] = value(first + r);
+            }
+            list
+        };
         let known = band.len()..band.len() + self.records.known.len();
-        Some((modes, known.map(value).collect()))
+        let damping = of_modes(self.records.damped(), known.end);
+        Some([of_modes(self.records.kept, 0), known.map(value).collect(), damping])
     }
 
     /// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion
     /// demands, beside a law or without one: a motion that is measured loses no phase, however far the model is off.
     pub(super) fn tuned(&self, fit: &FittedRecords, law: Option<&Source>) -> FittedRecords {
         let mut tuned = fit.clone();
-        if let Some((modes, known)) = self.corrections(law) {
+        if let Some([modes, known, damping]) = self.corrections(law) {
             // The equation of motion was asked with all mass as stated and no part corrected.
             tuned.modes = modes.iter().map(|x| x.ln_1p() + fit.mass).collect();
             if let Some((all, parts)) = self.records.parts.explaining(&tuned.modes) {
@@ -185,6 +195,7 @@ impl<'a> Regression<'a> {
                 tuned.parts = parts;
             }
             tuned.known.iter_mut().zip(&known).for_each(|(v, x)| *v += x.ln_1p());
+            tuned.damping.iter_mut().zip(&damping).for_each(|(v, x)| *v += x.ln_1p());
             if tuned.modes.len() == 1 {
                 tuned.stiffness += tuned.modes[0];
                 tuned.modes[0] = 0.0;
@@ -305,6 +316,21 @@ fn pairs(modes: usize) -> Vec<[usize; 2]> {
     all.sort_by_key(|[r, s]| r.abs_diff(*s));
     all.truncate(MOST_PAIRS);
     all
+}
+
+/// Takes the factors on the damping of modes into the modal forces of laws of the whole structure; their sums over these laws. `forces`
+/// are `[source][mode][sample]`, `modes` their numbers, `logarithms` those of the factors.
+fn damp(forces: &mut [Vec<Vec<f64>>], sources: &[Source], modes: &[usize], logarithms: &[f64]) -> Vec<Vec<f64>> {
+    let mut sums = vec![Vec::new(); modes.len()];
+    for (force, _) in forces.iter_mut().zip(sources).filter(|(_, source)| source.place == Place::Whole(None)) {
+        for ((signal, mode), sum) in force.iter_mut().zip(modes).zip(&mut sums) {
+            let factor = logarithms.get(*mode).map_or(1.0, |v| v.exp());
+            signal.iter_mut().for_each(|f| *f *= factor);
+            sum.resize(signal.len(), 0.0);
+            sum.iter_mut().zip(signal.iter()).for_each(|(s, f): (&mut f64, &f64)| *s += f);
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

@@ -104,11 +104,12 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
     let modes = modes(records);
-    let values =
-        std::iter::once(fit.stiffness).chain(fit.known.iter().copied()).chain(fit.modes.iter().take(modes).copied());
+    let sizes = fit.known.iter().chain(&fit.damping);
+    let values = std::iter::once(fit.stiffness).chain(sizes.copied()).chain(fit.modes.iter().take(modes).copied());
     let values = values.chain([fit.mass]);
     let names = std::iter::once(UpdatingParameter::Structure(Part::Stiffness))
         .chain((0..records.known.len()).map(UpdatingParameter::Known))
+        .chain((0..fit.damping.len()).map(|r| UpdatingParameter::Structure(Part::ModeDamping(r))))
         .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))))
         .chain([UpdatingParameter::Structure(Part::Mass)]);
     let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
@@ -121,7 +122,7 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
 /// Corrections of the parts of the structure that a fit moved along their directions.
 pub(super) fn corrections_of_parts(records: &Records, fit: &FittedRecords) -> Vec<(Part, Correction)> {
     let wide = scale(fit).sqrt();
-    let first = parameters(fit) + 2 + records.known.len() + modes(records);
+    let first = parameters(fit) + 2 + records.sizes() + modes(records);
     let own = |k: usize| fit.deviations.get(first + k).map_or(1.0, |d| (d * wide).min(1.0));
     let own: Vec<f64> = (0..fit.parts.len()).map(own).collect();
     let parts = records.parts.logarithms(&fit.parts).into_iter().zip(records.parts.deviations(&own));

@@ -30,12 +30,13 @@ impl Search<'_> {
         if self.control.is_late() {
             return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..beyond_priors(fit) });
         }
-        let (sources, count) = (self.records.known.len(), modes(self.records));
+        let (sources, count) = (self.records.sizes(), modes(self.records));
         let first = parameters(fit);
         let wide = scale(fit).sqrt();
+        let sizes: Vec<f64> = fit.known.iter().chain(&fit.damping).copied().collect();
         let moved = |j: usize| {
             let deviation = fit.deviations.get(first + 1 + j).copied().unwrap_or(f64::INFINITY) * wide;
-            fit.known[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
+            sizes[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
         };
         let known: Vec<bool> = (0..sources).map(moved).collect();
         let mask = |[stiffness, modes, mass]: [bool; 3]| {
@@ -63,7 +64,8 @@ impl Search<'_> {
             let (mask, by_mode) = (mask(what), what[1]);
             let mut start = fit.clone();
             start.stiffness = stiffness;
-            start.known.iter_mut().zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
+            let sizes = start.known.iter_mut().chain(&mut start.damping);
+            sizes.zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
             let held = if what[2] { fit.stiffness } else { all };
             let by_parts = by_parts.iter().map(|v| v + held);
             start.modes.iter_mut().zip(by_parts).for_each(|(v, more)| *v = if by_mode { *v + more } else { 0.0 });
@@ -131,6 +133,7 @@ impl Search<'_> {
         records.known.extend_from_slice(effects);
         let mut start = FittedRecords {
             stiffness: told.stiffness,
+            damping: told.damping.clone(),
             modes: told.modes.clone(),
             mass: told.mass,
             ..FittedRecords::start(&records, &[])

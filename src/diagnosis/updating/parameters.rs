@@ -67,17 +67,49 @@ pub struct Scales {
 impl Scales {
     /// Those of the search, before they are estimated beside each candidate: wide enough for what laboratories report,
     /// narrow enough that they leave to an effect what is an effect's.
-    pub const SEARCH: Self =
-        Self { model: 0.02, known: 0.2, gain: 0.01, phase: 3e-3, shift: 5e-4, response: 3e-3, session: 5e-4, damping: 0.2 };
+    pub const SEARCH: Self = Self {
+        model: 0.02,
+        known: 0.2,
+        gain: 0.01,
+        phase: 3e-3,
+        shift: 5e-4,
+        response: 3e-3,
+        session: 5e-4,
+        damping: 0.05,
+    };
     /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
-    pub const START: Self =
-        Self { model: 0.01, known: 0.2, gain: 3e-3, phase: 1e-3, shift: 2e-4, response: 1e-3, session: 2e-4, damping: 0.1 };
+    pub const START: Self = Self {
+        model: 0.01,
+        known: 0.2,
+        gain: 3e-3,
+        phase: 1e-3,
+        shift: 2e-4,
+        response: 1e-3,
+        session: 2e-4,
+        damping: 0.05,
+    };
     /// Least: below any measurement.
-    pub const LEAST: Self =
-        Self { model: 1e-6, known: 1e-5, gain: 1e-6, phase: 1e-6, shift: 1e-8, response: 1e-7, session: 1e-8, damping: 1e-5 };
+    pub const LEAST: Self = Self {
+        model: 1e-6,
+        known: 1e-5,
+        gain: 1e-6,
+        phase: 1e-6,
+        shift: 1e-8,
+        response: 1e-7,
+        session: 1e-8,
+        damping: 1e-5,
+    };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
-    pub const GREATEST: Self =
-        Self { model: 0.06, known: 0.5, gain: 0.015, phase: 0.02, shift: 0.01, response: 0.1, session: 0.02, damping: 0.5 };
+    pub const GREATEST: Self = Self {
+        model: 0.06,
+        known: 0.5,
+        gain: 0.015,
+        phase: 0.02,
+        shift: 0.01,
+        response: 0.1,
+        session: 0.02,
+        damping: 0.5,
+    };
 
     /// The same scales in a list, in the order of the fields.
     pub fn list(&self) -> [f64; 8] {

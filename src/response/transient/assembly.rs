@@ -55,6 +55,26 @@ pub(super) fn modal_stiffness(setup: &TransientSetup, reduction: &Reduction, r: 
     setup.factors[0] * own.exp() * reduction.omega[r].powi(2)
 }
 
+/// Factor on the damping that laws of the whole structure give a coordinate ([`crate::structure::mode_damping`]).
+fn mode_damping(setup: &TransientSetup, reduction: &Reduction, r: usize) -> f64 {
+    let own = if r < reduction.kept { setup.mode_damping.get(r).copied().unwrap_or(0.0) } else { 0.0 };
+    setup.structure.mode_damping(r) * own.exp()
+}
+
+/// Derivatives of the damping of the whole structure by the logarithms of the factors on that of the kept modes.
+fn by_mode_damping(reduction: &Reduction, whole: &Mat<f64>) -> Vec<(TransientParameter, Matrices)> {
+    let size = reduction.omega.len();
+    let of = |r: usize| {
+        let mut by = Matrices::zeros(size);
+        for s in 0..size {
+            by.damping[(r, s)] += 0.5 * whole[(r, s)];
+            by.damping[(s, r)] += 0.5 * whole[(s, r)];
+        }
+        (TransientParameter::ModeDamping(r), by)
+    };
+    (0..reduction.kept).map(of).collect()
+}
+
 /// Reduced matrices with all linear sources, and their derivatives by every parameter of the linear part.
 pub(super) fn assemble(
     setup: &TransientSetup,
@@ -73,6 +93,7 @@ pub(super) fn assemble(
     let (mut by_stiffness, mut by_mass) = (Matrices::zeros(size), Matrices::zeros(size));
     by_stiffness.stiffness = own.stiffness.clone();
     by_mass.mass = own.mass.clone();
+    let mut whole = Mat::<f64>::zeros(size, size);
     for (index, source) in setup.sources.iter().enumerate().filter(|(_, s)| is_linear(s.effect)) {
         let unit = unit_matrix(setup, reduction, source, &own, along);
         let mut by = Matrices::zeros(size);
@@ -87,6 +108,9 @@ pub(super) fn assemble(
             Effect::MassProportional => by_mass.damping += &by.damping * faer::Scale(value),
             _ => {}
         }
+        if source.place == Place::Whole(None) {
+            whole += &by.damping * faer::Scale(value);
+        }
         changes.push((TransientParameter::Source { source: index, parameter: 0 }, by));
     }
     let linear = setup.sources.iter().all(|s| is_linear(s.effect));
@@ -97,6 +121,7 @@ pub(super) fn assemble(
     }
     changes.push((TransientParameter::Stiffness, by_stiffness));
     changes.push((TransientParameter::Mass, by_mass));
+    changes.extend(by_mode_damping(reduction, &whole));
     (total, changes)
 }
 
@@ -148,7 +173,11 @@ fn unit_matrix(
     let size = reduction.omega.len();
     if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
         let mass = law.basis() == Basis::Mass;
-        let Some(range) = range else { return if mass { own.mass.clone() } else { own.stiffness.clone() } };
+        let Some(range) = range else {
+            let matrix = if mass { &own.mass } else { &own.stiffness };
+            let root: Vec<f64> = (0..size).map(|r| mode_damping(setup, reduction, r).sqrt()).collect();
+            return Mat::from_fn(size, size, |r, s| root[r] * root[s] * matrix[(r, s)]);
+        };
         let mut sum = Mat::zeros(size, size);
         let factor = setup.factors[usize::from(mass)];
         for (i, j, value) in law.basis().entries(setup.structure, *range) {

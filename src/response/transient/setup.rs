@@ -24,6 +24,8 @@ pub struct TransientSetup<'a> {
     pub factors: [f64; 2],
     /// Logarithms of factors on the stiffness of the kept modes beside that; none for those beyond its end.
     pub mode_stiffness: &'a [f64],
+    /// Logarithms of factors on the damping that laws of the whole structure give the kept modes; none for those beyond its end.
+    pub mode_damping: &'a [f64],
     /// Parts of the structure with logarithms of factors on their stiffness or mass beside that.
     pub parts: &'a [(Part, f64)],
     /// Directions in which these logarithms move together, `[direction][part]`.
@@ -53,6 +55,7 @@ impl<'a> TransientSetup<'a> {
             channels,
             factors: [1.0; 2],
             mode_stiffness: &[],
+            mode_damping: &[],
             parts: &[],
             directions: &[],
             step: [step; 2],
@@ -77,6 +80,8 @@ pub enum TransientParameter {
     Mass,
     /// Logarithm of the stiffness of a kept mode.
     Mode(usize),
+    /// Logarithm of the damping that laws of the whole structure give a kept mode.
+    ModeDamping(usize),
     /// Way along a direction of the parts of the structure, by its number in the setup.
     Direction(usize),
     /// Entry of the initial state (see `TransientModel::predict`).
