@@ -6,6 +6,7 @@
 //! the motion's strain energy `e`; with `eps = 0` the model is exact and only the force is in doubt.
 
 use super::expanded::{Acting, Expanded, state_misfit};
+use super::map::Map;
 use super::modal_model::ModalModel;
 use crate::balance::action::{self, Field, Secant};
 use crate::balance::measured::Measured;
@@ -36,8 +37,8 @@ pub(super) fn expand(structure: &Structure, model: &ModalModel, measured: &Measu
             expanded.x[(i, k)] = one.x[i];
             expanded.deviation[(i, k)] = one.deviation[i];
         }
-        expanded.from_sensors.push(one.gain);
-        expanded.from_forces.push(one.from_forces);
+        expanded.from_sensors.push(Map::Full(one.gain));
+        expanded.from_forces.push(Map::Full(one.from_forces));
         expanded.receptance.push(one.receptance);
     }
     state_misfit(measured, &mut expanded);

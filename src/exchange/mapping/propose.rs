@@ -91,18 +91,19 @@ pub fn propose(contents: &Contents) -> Proposal {
 fn inputs_and_outputs(set: &Set) -> Vec<Draft<'_>> {
     let names: Vec<&str> = set.channels.iter().map(|channel| channel.name.as_str()).collect();
     let bare = |channel: &&Channel| channel.unit.is_empty() && !channel.complex && channel.count > 0;
-    let of = |channel| {
-        let quantity = of_identification(&channel.name, &names)?;
-        let assumed = vec![format!(
-            "called as system identification calls inputs and outputs: a {} is assumed",
-            if quantity == Quantity::Force { "force" } else { "displacement" }
-        )];
-        let table = table(channel, None, quantity, String::new());
-        let mut draft = Draft { channel, table, placed: false, calibrated: true, assumed };
-        draft.convert(None, quantity, "");
-        Some(draft)
-    };
-    set.channels.iter().filter(bare).filter_map(of).collect()
+    let quantity = |channel: &Channel| of_identification(&channel.name, &names);
+    let drafts = set.channels.iter().filter(bare).filter_map(|channel| Some((channel, quantity(channel)?)));
+    drafts.map(|(channel, quantity)| assumed_draft(channel, quantity)).collect()
+}
+
+/// A channel whose quantity is assumed by its name alone.
+fn assumed_draft(channel: &Channel, quantity: Quantity) -> Draft<'_> {
+    let what = if quantity == Quantity::Force { "force" } else { "displacement" };
+    let assumed = vec![format!("called as system identification calls inputs and outputs: a {what} is assumed")];
+    let table = table(channel, None, quantity, String::new());
+    let mut draft = Draft { channel, table, placed: false, calibrated: true, assumed };
+    draft.convert(None, quantity, "");
+    draft
 }
 
 /// The first of the sets that are several of one layout, each with a name of its own.
