@@ -33,27 +33,7 @@ impl Matrix {
     /// [`Problem::Turned`] where the rows of a node cannot be turned.
     pub fn in_basic(self, file: &str, turned: &[Turned]) -> Result<Self, FileError> {
         let Some(dofs) = &self.dofs else { return Ok(self) };
-        let nodes: HashMap<i64, &Turned> = turned.iter().map(|node| (node.node, node)).collect();
-        let place: HashMap<NodeDof, usize> = dofs.iter().enumerate().map(|(row, &dof)| (dof, row)).collect();
-        // New places and factors of each row that is turned, and the new names of the rows.
-        let (mut parts, mut named) = (HashMap::new(), dofs.clone());
-        for (&id, node) in nodes.iter().filter(|(id, _)| (1..=6).any(|c| place.contains_key(&dof(**id, c)))) {
-            for offset in [0_u8, 3] {
-                let own: Vec<(usize, usize)> =
-                    (0..3_u8).filter_map(|c| Some((usize::from(c), *place.get(&dof(id, offset + c + 1))?))).collect();
-                let basic = spanned(&own, &node.axes).ok_or_else(|| {
-                    let components = own.iter().map(|(c, _)| (offset as usize + c + 1).to_string()).collect();
-                    FileError::new(file, Place::File, Problem::Turned { node: id, system: node.system, components })
-                })?;
-                for (&(_, row), &k) in own.iter().zip(&basic) {
-                    named[row] = dof(id, offset + k as u8 + 1);
-                }
-                for &(c, row) in &own {
-                    let factors = own.iter().zip(&basic).map(|(&(_, to), &k)| (to, node.axes[c][k]));
-                    parts.insert(row, factors.filter(|(_, factor)| *factor != 0.0).collect::<Vec<_>>());
-                }
-            }
-        }
+        let (parts, named) = rows(dofs, file, turned)?;
         if parts.is_empty() {
             return Ok(self);
         }
@@ -77,6 +57,34 @@ impl Matrix {
         }
         Self::new(file, &self.name, self.size, Some(named), given)
     }
+}
+
+/// Places and factors of a row in basic directions.
+type Parts = Vec<(usize, f64)>;
+
+/// The parts of each row that is turned, and the new names of all rows.
+fn rows(dofs: &[NodeDof], file: &str, turned: &[Turned]) -> Result<(HashMap<usize, Parts>, Vec<NodeDof>), FileError> {
+    let place: HashMap<NodeDof, usize> = dofs.iter().enumerate().map(|(row, &dof)| (dof, row)).collect();
+    let (mut parts, mut named) = (HashMap::new(), dofs.to_vec());
+    for node in turned.iter().filter(|node| (1..=6).any(|c| place.contains_key(&dof(node.node, c)))) {
+        let id = node.node;
+        for offset in [0_u8, 3] {
+            let own: Vec<(usize, usize)> =
+                (0..3_u8).filter_map(|c| Some((usize::from(c), *place.get(&dof(id, offset + c + 1))?))).collect();
+            let basic = spanned(&own, &node.axes).ok_or_else(|| {
+                let components = own.iter().map(|(c, _)| (offset as usize + c + 1).to_string()).collect();
+                FileError::new(file, Place::File, Problem::Turned { node: id, system: node.system, components })
+            })?;
+            for (&(_, row), &k) in own.iter().zip(&basic) {
+                named[row] = dof(id, offset + k as u8 + 1);
+            }
+            for &(c, row) in &own {
+                let factors = own.iter().zip(&basic).map(|(&(_, to), &k)| (to, node.axes[c][k]));
+                parts.insert(row, factors.filter(|(_, factor)| *factor != 0.0).collect::<Vec<_>>());
+            }
+        }
+    }
+    Ok((parts, named))
 }
 
 fn dof(node: i64, component: u8) -> NodeDof {

@@ -27,25 +27,34 @@ pub(super) fn proposed(request: &Request, file: &Path) -> Result<Proposal> {
     let renamed = rename(&mut contents, &request.names);
     let mut proposal = propose(&contents);
     for table in proposal.channels.iter_mut().chain(&mut proposal.uncalibrated) {
-        if let Some((_, own)) = renamed.iter().find(|(name, _)| *name == table.name) {
-            table.name.clone_from(own);
+        if let Some(column) = renamed.iter().find(|column| column.listed == table.name) {
+            table.name.clone_from(&column.own);
+            // The file itself does not say the unit.
+            table.unit = table.unit.take().or_else(|| column.unit.clone());
         }
     }
     Ok(proposal)
 }
 
-/// Gives the columns of sets without names those of the list, where it has as many; returns names of the list and of the file.
-fn rename(contents: &mut Contents, names: &[String]) -> Vec<(String, String)> {
+/// A column that a list names: its name there and in the file, and its unit where only the list says it.
+struct Column {
+    listed: String,
+    own: String,
+    unit: Option<String>,
+}
+
+/// Gives the columns of sets without names those of the list, where it has as many.
+fn rename(contents: &mut Contents, names: &[String]) -> Vec<Column> {
     let mut renamed = Vec::new();
     for set in &mut contents.sets {
         let places: Option<Vec<usize>> = set.channels.iter().map(|channel| place(&channel.name)).collect();
         let Some(places) = places.filter(|places| places.iter().max() == Some(&names.len())) else { continue };
         for (channel, place) in set.channels.iter_mut().zip(places) {
-            let (name, unit) = split(&names[place - 1]);
-            renamed.push((name.clone(), std::mem::replace(&mut channel.name, name)));
-            if channel.unit.is_empty() {
-                channel.unit = unit;
-            }
+            let (listed, unit) = split(&names[place - 1]);
+            let own = std::mem::replace(&mut channel.name, listed.clone());
+            let unit = Some(unit).filter(|unit| channel.unit.is_empty() && !unit.is_empty());
+            channel.unit = unit.clone().unwrap_or_else(|| channel.unit.clone());
+            renamed.push(Column { listed, own, unit });
         }
     }
     renamed

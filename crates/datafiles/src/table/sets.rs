@@ -55,21 +55,25 @@ pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>)
     blocks.into_iter().enumerate().map(|(i, block)| one(named(i), block)).unzip()
 }
 
-fn one(name: String, mut block: Block) -> (Set, Columns) {
-    let width = block.columns.len();
-    let mut header = header::read(&block.header, width);
+/// The header of a block, its column of the abscissa, and what is said of its clock and its rate.
+fn prepared(block: &mut Block) -> (header::Header, Option<(usize, Kind)>, Vec<String>) {
+    let mut header = header::read(&block.header, block.columns.len());
     listed::take(&mut header, &block.header);
     indices::keep(&mut header);
-    join_date(&mut header, &mut block);
-    join_fractions(&mut header, &mut block);
-    let midnight = pass_midnight(&mut block);
+    join_date(&mut header, block);
+    join_fractions(&mut header, block);
+    let midnight = pass_midnight(block);
     let axis = find_axis(&header, &block.columns, block.rows);
-    let rate = if axis.is_none() && header.step.is_none() { stated_step(&mut header, &mut block) } else { None };
+    let rate = if axis.is_none() && header.step.is_none() { stated_step(&mut header, block) } else { None };
+    (header, axis, midnight.into_iter().chain(rate).collect())
+}
+
+fn one(name: String, mut block: Block) -> (Set, Columns) {
+    let (header, axis, said) = prepared(&mut block);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
     set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
-    set.notes.extend(midnight);
-    set.notes.extend(rate);
+    set.notes.extend(said);
     set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));

@@ -139,8 +139,8 @@ fn told(rest: &[u64], lists: &[Vec<u64>], names: usize) -> Option<usize> {
             .iter()
             .any(|list| list.len() == rest.len() && list[*i] != rest[*i] && without(list, *i) == without(rest, *i))
     };
-    let named = (0..rest.len()).filter(|&i| names > 1 && rest[i] == names as u64);
-    lacking.or_else(|| (0..rest.len()).find(differs)).or_else(|| named.last())
+    let named = || (0..rest.len()).rev().find(|&i| names > 1 && rest[i] == names as u64);
+    lacking.or_else(|| (0..rest.len()).find(differs)).or_else(named)
 }
 
 /// The extent next to the samples at `along`: of the two beside samples in the middle the smaller.
