@@ -122,7 +122,7 @@ pub(crate) fn sweep() -> Case {
     let spring = |mass: f64, hz: f64| mass * (std::f64::consts::TAU * hz).powi(2);
     Case {
         name: "two masses, sweep",
-        structure: chain(&[1.0, 0.5], &[spring(1.0, 20.0), spring(0.5, 100.0)], &[4000.0]),
+        structure: chain(&[1.0, 0.5], &[spring(1.0, 20.0), spring(0.5, 100.0)], &[20_000.0]),
         truth: vec![truth(Effect::Viscous, 0, 2.0), truth(Effect::Viscous, 1, 3.0)],
         candidates: forced(candidates(&[Effect::Viscous], &[0, 1])),
         kind: Kind::Transient,
