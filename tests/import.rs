@@ -3,6 +3,8 @@
 
 #[path = "import/bad.rs"]
 mod bad;
+#[path = "import/benchmarks.rs"]
+mod benchmarks;
 #[path = "import/dialects.rs"]
 mod dialects;
 #[path = "import/files.rs"]

@@ -29,21 +29,14 @@ pub(crate) fn residual_deviation(
         action::add_energy_gradient(source, structure, expanded.field(measured), -1.0, &mut by_motion);
     }
     for k in 0..harmonics {
-        add_adjoint(&expanded.from_sensors[k], &by_motion, k, &mut by_sensors);
-        add_adjoint(&expanded.from_forces[k], &by_motion, k, &mut by_forces);
+        expanded.from_sensors[k].add_adjoint(&by_motion, k, &mut by_sensors);
+        expanded.from_forces[k].add_adjoint(&by_motion, k, &mut by_forces);
     }
     let variance = |gradient: &Mat<c64>, deviations: &Mat<f64>| -> f64 {
         let term = |s: usize, k: usize| gradient[(s, k)].norm_sqr() * deviations[(s, k)].powi(2);
         (0..gradient.nrows()).map(|s| (0..harmonics).map(|k| term(s, k)).sum::<f64>()).sum()
     };
     (variance(&by_sensors, &measured.sensors.deviations) + variance(&by_forces, &measured.forces.deviations)).sqrt()
-}
-
-/// `to[:, k] += map^H gradient[:, k]`.
-fn add_adjoint(map: &Mat<c64>, gradient: &Mat<c64>, k: usize, to: &mut Mat<c64>) {
-    for s in 0..map.ncols() {
-        to[(s, k)] += (0..map.nrows()).map(|i| map[(i, s)].conj() * gradient[(i, k)]).sum::<c64>();
-    }
 }
 
 /// Resolves `Auto`: `Noise` where deviations are known, else `Energy`.

@@ -33,6 +33,7 @@ fn request(arguments: &Import) -> anyhow::Result<Request> {
     ensure!(!files.is_empty(), "{}: the folder has no file", arguments.files[0].display());
     let mut request = Request {
         files,
+        names: Vec::new(),
         channels: None,
         kept: None,
         sampling_hz: arguments.sampling_hz,

@@ -89,6 +89,36 @@ fn every_format_gives_the_same_response() {
     }
 }
 
+/// The same chain with its grid points moving in a system whose x is the basic z: component 1 of the matrices is z. A component that
+/// cannot be turned alone is refused by the name of its grid point.
+#[test]
+fn grid_points_that_move_in_systems_of_their_own_are_turned() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let along = |name: &str, entries| dmig(name, entries).replace(&format!("{:>16}", 3), &format!("{:>16}", 1));
+    let deck = |system: &str| {
+        let grids: String = (11..14).map(|id| format!("GRID,{id},,{}.,0.,0.,5\n", id - 10)).collect();
+        format!("{system}{grids}{}{}", along("KAAX", &STIFFNESS), along("MAAX", &MASS))
+    };
+    let own: String = (11..14).map(|id| format!("GRID,{id},,{}.,0.,0.\n", id - 10)).collect();
+    let basic = format!("{own}{}{}", dmig("KAAX", &STIFFNESS), dmig("MAAX", &MASS));
+    fs::write(at.join("basic.bdf"), basic).unwrap();
+    fs::write(at.join("own.bdf"), deck("CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\n")).unwrap();
+    let truth = responses(at, "mass = \"basic.bdf\"\nstiffness = \"basic.bdf\"");
+    assert_eq!(responses(at, "mass = \"own.bdf\"\nstiffness = \"own.bdf\""), truth);
+    // Matrices alone in the punch file, the systems in the model beside it.
+    fs::write(at.join("own.pch"), format!("{}{}", along("KAAX", &STIFFNESS), along("MAAX", &MASS))).unwrap();
+    let beside = "mass = \"own.pch\"\nstiffness = \"own.pch\"\nnodes = \"own.bdf\"";
+    assert_eq!(responses(at, beside), truth);
+    fs::write(at.join("askew.bdf"), deck("CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,1.\n")).unwrap();
+    fs::write(at.join("p.toml"), project("mass = \"askew.bdf\"\nstiffness = \"askew.bdf\"")).unwrap();
+    let line = refused(&["identify", "p.toml"], at);
+    assert!(
+        line.contains("grid point 1") && line.contains("moves in coordinate system 5, and its components 1 alone"),
+        "{line}"
+    );
+}
+
 #[test]
 fn errors_name_file_line_and_cure() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,6 @@
 //! The rows themselves against what the integrator knows.
 
-use crate::support::{Case, cases};
+use crate::support::{Case, cases, sweep};
 use dashpot::balance::windows::window_rows;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Source};
@@ -50,4 +50,26 @@ fn windows_hold_the_energy_that_the_sources_take_out() {
         assert!((given / truth - 1.0).abs() < 0.03, "{}", case.name);
         assert!((taken / truth - 1.0).abs() < 0.03, "{}", case.name);
     }
+}
+
+/// Between its resonances a sweep sinks into the noise: the windows end there and go on at the next one. Linear from 10 to 130 Hz in
+/// 24 s, it passes the lower one before 5 s and the upper one at 18 s.
+#[test]
+fn windows_of_a_sweep_reach_its_second_resonance() {
+    let case = sweep();
+    let run = case.run(&case.clean(), 0.006, 1);
+    let rows = window_rows(&case.structure, &[], &case.truth, &[&run], &Control::unattended()).unwrap().remove(0);
+    let gap = rows.span_s.windows(2).find(|pair| pair[1][0] > pair[0][1] + 1.0);
+    println!("{:?} to {:?}, gap {gap:?}, {} rows", rows.span_s[0], rows.span_s[rows.len() - 1], rows.len());
+    assert!(
+        gap.is_some_and(|pair| pair[0][1] < 8.0 && pair[1][0] < 18.0),
+        "the motion sinks into the noise between the resonances"
+    );
+    assert!(rows.span_s[rows.len() - 1][1] > 18.5);
+    // What the dashpots take out beyond the gap is the work of the force there.
+    let beyond: Vec<usize> = (0..rows.len()).filter(|&k| rows.span_s[k][0] > 17.0).collect();
+    let coefficients: Vec<f64> = case.truth.iter().map(Source::coefficient).collect();
+    let taken: f64 = beyond.iter().map(|&k| (0..2).map(|j| rows.g[(k, j)] * coefficients[j]).sum::<f64>()).sum();
+    let given: f64 = beyond.iter().map(|&k| rows.e[k]).sum();
+    assert!((given / taken - 1.0).abs() < 0.1, "{given} {taken}");
 }

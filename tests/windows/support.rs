@@ -1,6 +1,6 @@
 //! Decays and hammer tests of the sample structures, by time integration in fine steps.
 
-use crate::common::models::{cantilever, five_masses};
+use crate::common::models::{cantilever, chain, five_masses};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::{Channel, Kind, Quantity, TransientLabel, TransientRun};
@@ -115,4 +115,21 @@ pub(crate) fn cases() -> Vec<Case> {
             ..beam()
         },
     ]
+}
+
+/// A slow sine sweep over two resonances of two masses, 20 and 100 Hz, that hardly move in between.
+pub(crate) fn sweep() -> Case {
+    let spring = |mass: f64, hz: f64| mass * (std::f64::consts::TAU * hz).powi(2);
+    Case {
+        name: "two masses, sweep",
+        structure: chain(&[1.0, 0.5], &[spring(1.0, 20.0), spring(0.5, 100.0)], &[20_000.0]),
+        truth: vec![truth(Effect::Viscous, 0, 2.0), truth(Effect::Viscous, 1, 3.0)],
+        candidates: forced(candidates(&[Effect::Viscous], &[0, 1])),
+        kind: Kind::Transient,
+        loading: Loading::Sweep { force_n: 1.0, from_hz: 10.0, to_hz: 130.0, logarithmic: false },
+        dof: 1,
+        sensors: vec![0, 1],
+        rate_hz: 1024.0,
+        samples: 24_576,
+    }
 }

@@ -53,6 +53,39 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     other(path, &start, kind.len())
 }
 
+/// First bytes of formats that are known and not read, and what to do with such a file.
+const NOT_READ: [(&[u8], &str); 23] = [
+    (
+        b"\xD0\xCF\x11\xE0",
+        "is a document of before 2007 or a scan of Polytec (SVD); save it as XLSX or CSV, a scan as Universal File",
+    ),
+    (b"%PDF", "is a PDF document; export the measurement as CSV, UFF or MAT"),
+    (b"\x1F\x8B", "is packed by gzip; unpack it first (an RDS file of R: save its table by write.csv)"),
+    (b"BZh", "is packed by bzip2; unpack it first"),
+    (b"\xFD7zXZ", "is packed by xz; unpack it first"),
+    (b"\x28\xB5\x2F\xFD", "is packed by zstd; unpack it first"),
+    (b"7z\xBC\xAF", "is a 7z archive; unpack it first"),
+    (b"Rar!", "is a RAR archive; unpack it first"),
+    (b"RF64", "is a WAV file above 4 GB (RF64); cut it into shorter ones"),
+    (b"CDF\x01", "is a NetCDF file of version 3; save it as NetCDF 4 or HDF5"),
+    (b"CDF\x02", "is a NetCDF file of version 3; save it as NetCDF 4 or HDF5"),
+    (b"\x89PNG", "is a picture; export the measurement as CSV, UFF or MAT"),
+    (b"PAR1", "is a Parquet file; save its table as CSV, in Python by pandas: read_parquet(FILE).to_csv(NEW)"),
+    (b"ARROW1", "is a Feather file; save its table as CSV, in Python by pandas: read_feather(FILE).to_csv(NEW)"),
+    (b"FEA1", "is a Feather file; save its table as CSV, in Python by pandas: read_feather(FILE).to_csv(NEW)"),
+    (b"\x80\x02", PICKLE),
+    (b"\x80\x03", PICKLE),
+    (b"\x80\x04", PICKLE),
+    (b"\x80\x05", PICKLE),
+    (b"SQLite format 3\0", "is a SQLite database; export the table of the measurement as CSV"),
+    (b"RDX", "is data of R; save the table by write.csv"),
+    (b"MDF     ", "is a file of ASAM MDF; export it as MAT, HDF5, TDMS or CSV"),
+    (b"UnFinMF ", "is a file of ASAM MDF that was not finished; finish it, and export it as MAT, HDF5, TDMS or CSV"),
+];
+/// Objects of Python run code where they are read.
+const PICKLE: &str =
+    "is a pickle of Python, which may run code when it is read; save its arrays by numpy.savez, a table by to_csv";
+
 /// What has no mark of its own, and what is known and not read.
 fn other(path: &Path, start: &[u8], length: u64) -> Read<(Contents, Box<dyn Source>)> {
     if universal::is_universal(start, path) {
@@ -61,15 +94,11 @@ fn other(path: &Path, start: &[u8], length: u64) -> Read<(Contents, Box<dyn Sour
     if mat::is_v4(start, length) {
         return mat::open_v4(path);
     }
-    let known: [(&[u8], &str); 6] = [
-        (b"\xD0\xCF\x11\xE0", "is a spreadsheet or document of before 2007; save it as XLSX or CSV"),
-        (b"%PDF", "is a PDF document; export the measurement as CSV, UFF or MAT"),
-        (b"\x1F\x8B", "is packed by gzip; unpack it first"),
-        (b"RF64", "is a WAV file above 4 GB (RF64); cut it into shorter ones"),
-        (b"CDF\x01", "is a NetCDF file of version 3; save it as NetCDF 4 or HDF5"),
-        (b"\x89PNG", "is a picture; export the measurement as CSV, UFF or MAT"),
-    ];
-    if let Some((_, problem)) = known.iter().find(|(mark, _)| start.starts_with(mark)) {
+    // The oldest pickles are text: a dictionary or a list, or an object by its module.
+    if [&b"(dp0\n"[..], b"(lp0\n", b"ccopy_reg\n", b"cnumpy", b"cpandas"].iter().any(|mark| start.starts_with(mark)) {
+        return Err(Fault::new(PICKLE));
+    }
+    if let Some((_, problem)) = NOT_READ.iter().find(|(mark, _)| start.starts_with(mark)) {
         return Err(Fault::new(*problem));
     }
     text::open(path)

@@ -40,7 +40,7 @@ fn what_is_wrong_and_how_to_mend_it_is_said() {
         check(&error);
         error.to_string().replace(&format!("{}{}", folder.path().display(), std::path::MAIN_SEPARATOR), "")
     };
-    let cases: [(&str, &[u8], &str); 16] = [
+    let cases: [(&str, &[u8], &str); 24] = [
         ("a.csv", b"", "a.csv: is empty (0 bytes); export the record again"),
         ("a.csv", b" \n\n", "a.csv: is empty; export the record again"),
         (
@@ -60,6 +60,14 @@ fn what_is_wrong_and_how_to_mend_it_is_said() {
         ("a.xls", b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "save it as XLSX or CSV"),
         ("a.zip", b"PK\x03\x04....", "ZIP archive"),
         ("a.pdf", b"%PDF-1.7", "is a PDF document"),
+        ("a.parquet", b"PAR1\x15\x04", "is a Parquet file; save its table as CSV"),
+        ("a.feather", b"ARROW1\0\0", "is a Feather file; save its table as CSV"),
+        ("a.pkl", b"\x80\x04\x95\x10", "is a pickle of Python"),
+        ("b.pkl", b"(dp0\nVa\np1\n", "save its arrays by numpy.savez"),
+        ("a.rdata", b"RDX3\nX\n", "save the table by write.csv"),
+        ("a.sqlite", b"SQLite format 3\0", "is a SQLite database; export the table"),
+        ("a.mf4", b"MDF     4.10    ", "is a file of ASAM MDF; export it as MAT"),
+        ("a.xz", b"\xFD7zXZ\0", "is packed by xz; unpack it first"),
         ("a.gz", b"\x1F\x8B\x08\x00", "is packed by gzip"),
         ("a.bin", b"\x01\x02\x00\x00\x05\x00", "a.bin, byte 2: is no text and of no known format"),
         ("a.npy", b"\x93NUMPY\x01\x00\x10\x00{'descr': '<f8'}", "has no shape"),

@@ -52,6 +52,12 @@ impl std::error::Error for FileError {}
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Problem {
+    #[error(
+        "grid point {node} moves in coordinate system {system}, and its components {components} alone cannot be turned to x, y and z; export the matrix with all three of them, or with displacements of that grid point (CD) in the basic system"
+    )]
+    Turned { node: i64, system: i64, components: String },
+    #[error("coordinate system {id} lies on grid point {grid}, which is not given; export its GRID too")]
+    SystemGrid { id: i64, grid: i64 },
     #[error("\"{text}\" is not a finite number; export the file again")]
     Number { text: String },
     #[error("\"{text}\" is not a whole number where {what} must stand; export the file again")]

@@ -17,7 +17,7 @@ pub fn read(text: &str, file: &str) -> Result<Geometry, FileError> {
     }
     reader.flush();
     let notes = reader.unread.iter().map(|(name, count)| note(name, *count)).collect();
-    Ok(Geometry { nodes: reader.nodes, lines: reader.edges.finish(), notes })
+    Ok(Geometry { nodes: reader.nodes, lines: reader.edges.finish(), turned: Vec::new(), notes })
 }
 
 fn note(keyword: &str, count: usize) -> String {

@@ -2,7 +2,7 @@
 //!
 //! | program | read |
 //! |---|---|
-//! | NASTRAN bulk data and punch ([`nastran`]) | `GRID`, `GRDSET`, `SPOINT`, `CORD2R/C/S`, line and shell and solid elements for drawing, `DMIG` of real matrices; small, large and free field |
+//! | NASTRAN bulk data and punch ([`nastran`]) | `GRID`, `GRDSET`, `SPOINT`, `CORD1R/C/S`, `CORD2R/C/S`, line and shell and solid elements for drawing, `DMIG` of real matrices; small, large and free field |
 //! | NASTRAN `OUTPUT4` ([`op4`]) | real matrices in ascii and binary, both byte orders, dense and sparse columns |
 //! | Abaqus ([`abaqus`]) | `*MATRIX GENERATE` output: matrix input, labels and coordinate |
 //! | CalculiX ([`calculix`]) | `.sti`, `.mas` and `.dof` of `SOLVER=MATRIXSTORAGE` |
@@ -21,9 +21,11 @@ mod matrix;
 pub mod nastran;
 mod number;
 pub mod op4;
+mod turned;
 
 pub use error::{FileError, Place, Problem};
 pub use matrix::{Matrix, NodeDof};
+pub use turned::Turned;
 
 /// A point of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +43,8 @@ pub struct Geometry {
     pub nodes: Vec<Node>,
     /// Pairs of node numbers joined by a line, each pair once; of solids those of the surface only.
     pub lines: Vec<[i64; 2]>,
+    /// Nodes whose displacements are in directions of their own; [`Matrix::in_basic`] turns them.
+    pub turned: Vec<Turned>,
     /// What was met and is not understood but could matter, a sentence each.
     pub notes: Vec<String>,
 }

@@ -6,6 +6,7 @@
 //! the motion's strain energy `e`; with `eps = 0` the model is exact and only the force is in doubt.
 
 use super::expanded::{Acting, Expanded, state_misfit};
+use super::map::Map;
 use super::modal_model::ModalModel;
 use crate::balance::action::{self, Field, Secant};
 use crate::balance::measured::Measured;
@@ -36,8 +37,8 @@ pub(super) fn expand(structure: &Structure, model: &ModalModel, measured: &Measu
             expanded.x[(i, k)] = one.x[i];
             expanded.deviation[(i, k)] = one.deviation[i];
         }
-        expanded.from_sensors.push(one.gain);
-        expanded.from_forces.push(one.from_forces);
+        expanded.from_sensors.push(Map::Full(one.gain));
+        expanded.from_forces.push(Map::Full(one.from_forces));
         expanded.receptance.push(one.receptance);
     }
     state_misfit(measured, &mut expanded);
@@ -125,19 +126,18 @@ impl Prior {
             *value *= scale;
         }
         let noise: Vec<f64> = (0..driven.ncols()).map(|j| measured.forces.deviations[(j, k)].powi(2)).collect();
-        let entry = |i: usize, other: usize| -> c64 {
-            let force: c64 = (0..driven.ncols()).map(|j| driven[(i, j)] * driven[(other, j)].conj() * noise[j]).sum();
-            let residual: f64 = if scale > 0.0 {
-                (0..v.len()).map(|m| model.shape(m, i) * v[m] * model.shape(m, other)).sum()
-            } else {
-                0.0
-            };
-            force + residual
+        let force = |i: usize, other: usize| -> c64 {
+            (0..driven.ncols()).map(|j| driven[(i, j)] * driven[(other, j)].conj() * noise[j]).sum()
         };
-        Self {
-            to_sensors: Mat::from_fn(model.size(), sensors.len(), |i, s| entry(i, sensors[s])),
-            variance: (0..model.size()).map(|i| entry(i, i).re).collect(),
+        let (n, s) = (model.size(), sensors.len());
+        let mut to_sensors = Mat::from_fn(n, s, |i, b| force(i, sensors[b]));
+        let mut variance: Vec<f64> = (0..n).map(|i| force(i, i).re).collect();
+        if scale > 0.0 {
+            let residual = model.residual_covariance(&v, sensors);
+            (0..s).for_each(|b| (0..n).for_each(|i| to_sensors[(i, b)] += residual[(i, b)]));
+            variance.iter_mut().zip(model.residual_diagonal(&v)).for_each(|(sum, own)| *sum += own);
         }
+        Self { to_sensors, variance }
     }
 
     fn update(self, measured: &Measured, k: usize, driven: &Mat<c64>, receptance: Mat<c64>, x0: &[c64]) -> Harmonic {

@@ -1,5 +1,6 @@
 //! The motion of all DOFs as an expansion gives it, and what is known to act while it is found.
 
+use super::map::Map;
 use crate::balance::action::{self, Field, Secant};
 use crate::balance::measured::Measured;
 use crate::effects::Source;
@@ -14,9 +15,9 @@ pub struct Expanded {
     /// error; infinite where nothing is known.
     pub deviation: Mat<f64>,
     /// `E_h`, n x sensors, one a kept harmonic.
-    pub from_sensors: Vec<Mat<c64>>,
+    pub from_sensors: Vec<Map>,
     /// `B_h`, n x force channels, one a kept harmonic.
-    pub from_forces: Vec<Mat<c64>>,
+    pub from_forces: Vec<Map>,
     /// Receptance between all DOFs and the sensors, n x sensors, one a kept harmonic; only for `dynamic`.
     pub receptance: Vec<Mat<c64>>,
     /// Whether each DOF is known at all.
@@ -61,26 +62,22 @@ impl Acting<'_> {
 /// `E Y + B F` for all harmonics, with the deviation that noise gives and the misfit at the sensors.
 pub(super) fn from_maps(
     measured: &Measured,
-    from_sensors: Vec<Mat<c64>>,
-    from_forces: Vec<Mat<c64>>,
+    from_sensors: Vec<Map>,
+    from_forces: Vec<Map>,
     known: Vec<bool>,
 ) -> Expanded {
     let (n, harmonics) = (known.len(), measured.harmonics());
-    let column = |map: &Mat<c64>, values: &Mat<c64>, i: usize, k: usize| -> c64 {
-        (0..map.ncols()).map(|s| map[(i, s)] * values[(s, k)]).sum()
-    };
-    let x = Mat::from_fn(n, harmonics, |i, k| {
-        column(&from_sensors[k], &measured.sensors.values, i, k)
-            + column(&from_forces[k], &measured.forces.values, i, k)
-    });
-    let variance = |map: &Mat<c64>, deviations: &Mat<f64>, i: usize, k: usize| -> f64 {
-        (0..map.ncols()).map(|s| map[(i, s)].norm_sqr() * deviations[(s, k)].powi(2)).sum()
-    };
-    let deviation = Mat::from_fn(n, harmonics, |i, k| {
-        let noise = variance(&from_sensors[k], &measured.sensors.deviations, i, k)
-            + variance(&from_forces[k], &measured.forces.deviations, i, k);
-        if known[i] { noise.sqrt() } else { f64::INFINITY }
-    });
+    let (mut x, mut deviation) = (Mat::zeros(n, harmonics), Mat::zeros(n, harmonics));
+    for k in 0..harmonics {
+        let (sensors, forces) = (&from_sensors[k], &from_forces[k]);
+        let motion =
+            sensors.times(&measured.sensors.values, k).into_iter().zip(forces.times(&measured.forces.values, k));
+        motion.enumerate().for_each(|(i, (a, b))| x[(i, k)] = a + b);
+        let noise = sensors.variances(&measured.sensors.deviations, k);
+        for (i, (a, b)) in noise.into_iter().zip(forces.variances(&measured.forces.deviations, k)).enumerate() {
+            deviation[(i, k)] = if known[i] { (a + b).sqrt() } else { f64::INFINITY };
+        }
+    }
     let mut expanded = Expanded {
         x,
         deviation,
@@ -110,7 +107,7 @@ pub(super) fn state_misfit(measured: &Measured, expanded: &mut Expanded) {
     expanded.relative_misfit = if size > 0.0 { (difference / size).sqrt() } else { 0.0 };
 }
 
-/// A zero map for each kept harmonic.
-pub(super) fn no_maps(n: usize, columns: usize, harmonics: usize) -> Vec<Mat<c64>> {
-    vec![Mat::zeros(n, columns); harmonics]
+/// No map for any kept harmonic.
+pub(super) fn no_maps(n: usize, harmonics: usize) -> Vec<Map> {
+    vec![Map::zero(n); harmonics]
 }

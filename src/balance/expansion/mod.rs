@@ -3,11 +3,13 @@
 
 mod dynamic;
 mod expanded;
+mod map;
 mod modal;
 pub(crate) mod modal_model;
 mod points;
 
 pub use expanded::{Acting, Expanded};
+pub use map::Map;
 
 use super::error::BalanceError;
 use super::measured::Measured;

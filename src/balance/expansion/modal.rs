@@ -4,6 +4,7 @@
 //! modes nearest to the frequency, no more than there are sensors and as many as the sensors can tell apart.
 
 use super::expanded::{Expanded, from_maps, no_maps};
+use super::map::Map;
 use super::modal_model::ModalModel;
 use crate::balance::error::BalanceError;
 use crate::balance::measured::Measured;
@@ -19,8 +20,8 @@ pub(super) fn expand(model: &ModalModel, measured: &Measured, most: usize) -> Re
     let n = model.size();
     let maps: Result<Vec<Mat<c64>>, BalanceError> =
         (0..measured.harmonics()).map(|k| map(model, measured, k, most)).collect();
-    let forces = no_maps(n, measured.forces.len(), measured.harmonics());
-    Ok(from_maps(measured, maps?, forces, vec![true; n]))
+    let maps = maps?.into_iter().map(Map::Full).collect();
+    Ok(from_maps(measured, maps, no_maps(n, measured.harmonics()), vec![true; n]))
 }
 
 fn map(model: &ModalModel, measured: &Measured, k: usize, most: usize) -> Result<Mat<c64>, BalanceError> {

@@ -175,6 +175,24 @@ impl ModalModel {
     }
 }
 
+impl ModalModel {
+    /// Columns `dofs` of `Phi diag(v) Phi^T`, n x `dofs.len()`.
+    pub fn residual_covariance(&self, v: &[f64], dofs: &[usize]) -> Mat<f64> {
+        let weighted = filled(v.len(), dofs.len(), |k, j| v[k] * self.modes.shapes[(dofs[j], k)]);
+        product(self.modes.shapes.as_ref(), weighted.as_ref())
+    }
+
+    /// Diagonal of `Phi diag(v) Phi^T`.
+    pub fn residual_diagonal(&self, v: &[f64]) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.size()];
+        for (k, value) in v.iter().enumerate() {
+            let shape = self.modes.shapes.col(k);
+            diagonal.iter_mut().enumerate().for_each(|(i, sum)| *sum += value * shape[i] * shape[i]);
+        }
+        diagonal
+    }
+}
+
 /// The lowest modes of a large structure; `None` where too many would be needed.
 fn lowest(
     matrices: &SystemMatrices,

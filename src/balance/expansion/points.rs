@@ -2,23 +2,18 @@
 //! inverse to their variances.
 
 use super::expanded::{Expanded, from_maps, no_maps};
+use super::map::Map;
 use crate::balance::measured::Measured;
-use faer::{Mat, c64};
 
 pub(super) fn expand(n: usize, measured: &Measured) -> Expanded {
     let harmonics = measured.harmonics();
     let mut known = vec![false; n];
     measured.sensors.dofs.iter().for_each(|&dof| known[dof] = true);
-    let maps = (0..harmonics)
-        .map(|k| {
-            let mut map: Mat<c64> = Mat::zeros(n, measured.sensors.len());
-            for &dof in &measured.sensors.dofs {
-                for (s, weight) in measured.average_at(dof, k) {
-                    map[(dof, s)] = c64::new(weight, 0.0);
-                }
-            }
-            map
-        })
-        .collect();
-    from_maps(measured, maps, no_maps(n, measured.forces.len(), harmonics), known)
+    let places: Vec<usize> = (0..n).filter(|&dof| known[dof]).collect();
+    let map = |k: usize| {
+        let averages = |&dof: &usize| measured.average_at(dof, k).into_iter().map(move |(s, weight)| (dof, s, weight));
+        Map::Few { rows: n, entries: places.iter().flat_map(averages).collect() }
+    };
+    let maps = (0..harmonics).map(map).collect();
+    from_maps(measured, maps, no_maps(n, harmonics), known)
 }

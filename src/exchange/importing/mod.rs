@@ -11,6 +11,7 @@ mod functions;
 mod kept;
 mod looks;
 mod model;
+mod names;
 mod numbers;
 mod records;
 mod refusal;
@@ -51,6 +52,7 @@ pub enum Holds {
 /// # Errors
 /// One line for a file that cannot be read.
 pub fn look(request: &Request) -> Result<Holds> {
+    let request = &names::taken(request);
     let request = &shapes::without(request);
     if has_responses(request)? {
         return responses::look(request).map(Holds::Responses);
@@ -66,6 +68,7 @@ pub fn look(request: &Request) -> Result<Holds> {
 /// # Errors
 /// One line: what cannot be read, or what is missing and how to give it.
 pub fn import(request: &Request, out: &Path, control: &Control) -> Result<Imported> {
+    let request = &names::taken(request);
     let shapes = shapes::files(request);
     shapes::add(measurements(&shapes::without(request), out, control)?, &shapes, out)
 }
@@ -86,6 +89,7 @@ fn measurements(request: &Request, out: &Path, control: &Control) -> Result<Impo
 /// # Errors
 /// As [`import`].
 pub fn proposal(request: &Request, out: &Path, control: &Control) -> Result<String> {
+    let request = &names::taken(request);
     let request = &shapes::without(request);
     if has_responses(request)? || stepped_table(request)?.is_some() {
         return import(request, out, control).map(|imported| imported.text());

@@ -4,6 +4,7 @@ use super::driven;
 use super::error::{ImportError, Result};
 use super::looks::{Looks, look};
 use super::model::head;
+use super::names::proposed;
 use super::numbers::placed;
 use super::refusal::refusal;
 use super::request::{Imported, Request};
@@ -12,7 +13,7 @@ use super::run_source::{RunSource, kinds};
 use super::single_mode::{SingleMode, single_mode};
 use super::text::{comment, counted, named, points};
 use crate::control::Control;
-use crate::exchange::mapping::{ChannelTable, Proposal, propose, runs_of};
+use crate::exchange::mapping::{ChannelTable, Proposal, runs_of};
 use crate::exchange::project::plan;
 use crate::measurement::channel::parse_name;
 use crate::measurement::{Kind, Quantity, Record};
@@ -93,7 +94,7 @@ pub(super) fn mapping(request: &Request) -> Result<Proposal> {
 /// What the first file proposes; where some of its channels move from file to file (a hammer that is named by its place), what
 /// all files propose, with those that some lack as optional.
 fn of_all_files(request: &Request) -> Result<Proposal> {
-    let own = |file: &PathBuf| Ok(propose(open(file)?.contents()));
+    let own = |file: &PathBuf| proposed(request, file);
     let mut all = own(&request.files[0])?;
     let further = request.files[1..].iter().map(own).collect::<Result<Vec<Proposal>>>()?;
     let has = |proposal: &Proposal, name: &String| proposal.channels.iter().any(|table| table.name == *name);
@@ -165,7 +166,7 @@ fn further_runs(request: &Request, mapping: &Proposal, file: &Path) -> Result<Ve
     if request.files.first().is_some_and(|first| first == file) && request.channels.is_none() {
         return Ok(mapping.further_runs.clone());
     }
-    let own = propose(open(file)?.contents());
+    let own = proposed(request, file)?;
     let place = |table: &ChannelTable| (table.name.clone(), table.set.clone(), table.channel());
     let alike = own.channels.len() == mapping.channels.len()
         && own.channels.iter().zip(&mapping.channels).all(|(own, table)| place(own) == place(table));

@@ -12,6 +12,8 @@ use std::path::PathBuf;
 pub struct Request {
     /// Measurement files of one layout.
     pub files: Vec<PathBuf>,
+    /// Names of the columns of files that have none, of a file that lists them.
+    pub names: Vec<String>,
     /// What the channels of time records are.
     pub channels: Option<Vec<ChannelTable>>,
     /// A project that has a model already: all of it but its measurements is kept. `mass` goes before it.

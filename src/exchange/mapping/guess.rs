@@ -69,6 +69,19 @@ pub(super) fn symbol(name: &str) -> Option<Quantity> {
     letters.all(|c| c.is_ascii_digit() || matches!(c, '_' | ' ' | '[' | ']')).then_some(quantity)
 }
 
+/// Force of an input, displacement of an output, by names as system identification has them: `u` and `y`, `u[2]`, `uval` and `yval`.
+/// Both must be among `names`.
+pub(super) fn of_identification(name: &str, names: &[&str]) -> Option<Quantity> {
+    let parts = |name: &str| {
+        let lower = name.trim().to_lowercase();
+        let stem = lower.split_once('[').map_or(lower.as_str(), |(stem, _)| stem).to_owned();
+        stem.strip_prefix(['u', 'y']).map(|rest| (stem.starts_with('u'), rest.to_owned()))
+    };
+    let (input, rest) = parts(name)?;
+    let other = names.iter().filter_map(|name| parts(name)).any(|(side, own)| side != input && own == rest);
+    other.then_some(if input { Quantity::Force } else { Quantity::Displacement })
+}
+
 /// Whether a name is that of the moving base: a shaker table, the ground.
 pub(super) fn of_base(name: &str) -> bool {
     const BASES: [&str; 9] = ["base", "table", "ground", "platform", "basis", "tisch", "boden", "tavola", "sol"];
@@ -171,6 +184,10 @@ mod tests {
             (symbol("F"), symbol("x_2"), spoken("Beschl.")),
             (Some(Quantity::Force), Some(Quantity::Displacement), Some(Quantity::Acceleration))
         );
+        let names = ["uval", "yval[1]", "yval[2]", "u", "x"];
+        let of = |name: &str| of_identification(name, &names);
+        assert_eq!((of("uval"), of("yval[2]")), (Some(Quantity::Force), Some(Quantity::Displacement)));
+        assert_eq!((of("u"), of("x")), (None, None));
         assert!(of_base("Shaker table [g]") && of_base("base_z") && !of_base("acc 7") && !of_base("baseline 1"));
         assert_eq!((direction_of("Table Z").as_deref(), direction_of("Table")), (Some("z"), None));
         assert!(angle("phi") && angle("Roll angle") && !angle("phase"));

@@ -4,7 +4,8 @@
 //! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
 use super::guess::{
-    angle, direction_of, is_sensor_unit, of_base, place_beside, place_of, quantity_of_type, spoken, symbol,
+    angle, direction_of, is_sensor_unit, of_base, of_identification, place_beside, place_of, quantity_of_type, spoken,
+    symbol,
 };
 use super::table::ChannelTable;
 use super::units::LabUnit;
@@ -75,11 +76,34 @@ pub fn propose(contents: &Contents) -> Proposal {
             }
         }
     }
+    if let (true, Some(set)) = (drafts.is_empty(), alike.or_else(|| recorded.first().copied())) {
+        drafts = inputs_and_outputs(set);
+        proposal.left.retain(|(name, _)| drafts.iter().all(|draft| draft.channel.name != *name));
+    }
     let mut drafts = proposal.of_one_length(drafts);
     take_for_base(&mut drafts);
     let again = proposal.number(drafts);
     proposal.take_further_runs(again);
     proposal
+}
+
+/// The channels of a set that are called as inputs and outputs of system identification, `u` and `y`.
+fn inputs_and_outputs(set: &Set) -> Vec<Draft<'_>> {
+    let names: Vec<&str> = set.channels.iter().map(|channel| channel.name.as_str()).collect();
+    let bare = |channel: &&Channel| channel.unit.is_empty() && !channel.complex && channel.count > 0;
+    let quantity = |channel: &Channel| of_identification(&channel.name, &names);
+    let drafts = set.channels.iter().filter(bare).filter_map(|channel| Some((channel, quantity(channel)?)));
+    drafts.map(|(channel, quantity)| assumed_draft(channel, quantity)).collect()
+}
+
+/// A channel whose quantity is assumed by its name alone.
+fn assumed_draft(channel: &Channel, quantity: Quantity) -> Draft<'_> {
+    let what = if quantity == Quantity::Force { "force" } else { "displacement" };
+    let assumed = vec![format!("called as system identification calls inputs and outputs: a {what} is assumed")];
+    let table = table(channel, None, quantity, String::new());
+    let mut draft = Draft { channel, table, placed: false, calibrated: true, assumed };
+    draft.convert(None, quantity, "");
+    draft
 }
 
 /// The first of the sets that are several of one layout, each with a name of its own.

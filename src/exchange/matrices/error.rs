@@ -52,6 +52,10 @@ impl From<dashpot_fe_files::FileError> for TableError {
 pub enum TableProblem {
     #[error("cannot be read: {reason}; check the path")]
     Unreadable { reason: String },
+    #[error(
+        "grid point {node} moves in coordinate system {system}, and rows of a table are in x, y and z; give the matrices as DMIG, whose rows are turned, or with displacements of that grid point (CD) in the basic system"
+    )]
+    TurnedNode { node: String, system: i64 },
     #[error("is not UTF-8 text; export it again as text")]
     NotText,
     #[error("the first line must be `%%MatrixMarket matrix coordinate real symmetric` or alike, not \"{found}\"")]

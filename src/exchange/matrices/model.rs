@@ -115,18 +115,7 @@ pub(crate) fn is_model(path: &Path) -> bool {
 /// # Errors
 /// [`TableError`], or [`dashpot_fe_files::FileError`] in it, with file, line, what is wrong and how to mend it.
 pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
-    let mut geometry = Geometry::default();
-    let mut matrices = Vec::new();
-    for ((path, name), what) in files.matrices.into_iter().zip(files.names).zip(["M", "K"]) {
-        let (matrix, own) = one(path, name, what)?;
-        matrices.push(matrix);
-        if geometry.nodes.is_empty() {
-            geometry = own;
-        }
-    }
-    if let Some(path) = files.nodes.filter(|path| is_model(path)) {
-        geometry = geometry_of(path)?;
-    }
+    let (matrices, mut geometry) = read_matrices(files)?;
     let mut notes = std::mem::take(&mut geometry.notes);
     let (system, dofs) = joined(matrices, files.matrices[1], &mut notes)?;
     let mut nodes = files.nodes.filter(|path| !is_model(path)).map(read_nodes).transpose()?;
@@ -135,7 +124,7 @@ pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
         nodes = Some(geometry.nodes.iter().map(node).collect());
     }
     let dofs = match files.dofs {
-        Some(path) => Some(read_dofs(path)?),
+        Some(path) => Some(in_basic(read_dofs(path)?, &geometry, path)?),
         None => dofs.map(|dofs| dofs.iter().map(named).collect()),
     };
     let mut lines = files.lines.map(read_lines).transpose()?.unwrap_or_default();
@@ -148,6 +137,38 @@ pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
     }
     drop_unknown(&mut lines, nodes.as_deref());
     Ok(Model { system, dofs, nodes, lines, notes })
+}
+
+/// Both matrices with their rows in basic directions, and the nodes and lines beside them.
+fn read_matrices(files: ModelFiles<'_>) -> Result<(Vec<Matrix>, Geometry), TableError> {
+    let mut geometry = Geometry::default();
+    let mut matrices = Vec::new();
+    for ((path, name), what) in files.matrices.into_iter().zip(files.names).zip(["M", "K"]) {
+        let (matrix, own) = one(path, name, what)?;
+        matrices.push(matrix);
+        if geometry.nodes.is_empty() {
+            geometry = own;
+        }
+    }
+    if let Some(path) = files.nodes.filter(|path| is_model(path)) {
+        geometry = geometry_of(path)?;
+    }
+    let turned = |(matrix, path): (Matrix, &Path)| matrix.in_basic(&path.display().to_string(), &geometry.turned);
+    let matrices = matrices.into_iter().zip(files.matrices).map(turned).collect::<Result<_, _>>()?;
+    Ok((matrices, geometry))
+}
+
+/// The rows of a table, whose directions are x, y and z: nodes that move in other systems have no place in it.
+fn in_basic(dofs: Vec<ImportedDof>, geometry: &Geometry, path: &Path) -> Result<Vec<ImportedDof>, TableError> {
+    let turned: HashMap<String, i64> =
+        geometry.turned.iter().map(|node| (node.node.to_string(), node.system)).collect();
+    match dofs.iter().find_map(|dof| Some((&dof.node, turned.get(&dof.node)?))) {
+        Some((node, &system)) => {
+            let problem = TableProblem::TurnedNode { node: node.clone(), system };
+            Err(TableError::file(&path.display().to_string(), problem))
+        }
+        None => Ok(dofs),
+    }
 }
 
 fn named(dof: &NodeDof) -> ImportedDof {

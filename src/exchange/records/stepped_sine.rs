@@ -58,9 +58,19 @@ pub(super) fn is_one(bytes: &[u8], name: &str) -> Result<bool, RecordFileError> 
     Ok(swept && !has("harmonic") && !has("cos"))
 }
 
+/// Bytes in which the first line of a table ends: files of other formats may be larger than memory.
+const BEGINNING: u64 = 1 << 20;
+
 /// Whether the file at `path` is a table that [`parse`] reads: its columns are told in its first line.
 pub(crate) fn is_stepped_table(path: &std::path::Path) -> bool {
-    std::fs::read(path).is_ok_and(|bytes| is_one(&bytes, "").unwrap_or(false))
+    use std::io::Read;
+    let mut bytes = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut bytes));
+    if bytes.len() as u64 == BEGINNING {
+        // A letter or a line that is cut says nothing.
+        bytes.truncate(bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |last| last + 1));
+    }
+    read.is_ok() && is_one(&bytes, "").unwrap_or(false)
 }
 
 /// Reads every row as a run.

@@ -281,6 +281,12 @@ pub(crate) fn unit_of_part(name: &str, stated: &[String]) -> Option<String> {
     }
 }
 
+/// Whether the name of an array says that it holds a part of frequency responses, or coherences.
+pub(crate) fn is_part(name: &str) -> bool {
+    let said = words::said(name);
+    said.part.is_some() || said.coherence
+}
+
 /// Whether a name is that of a coherence.
 pub fn is_coherence(name: &str) -> bool {
     words::said(name).coherence

@@ -2,8 +2,10 @@
 
 mod blocks;
 pub(crate) mod cell;
+mod clock;
 mod header;
 mod header_line;
+mod indices;
 mod listed;
 mod sampling;
 mod sets;

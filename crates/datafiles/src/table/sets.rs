@@ -1,11 +1,13 @@
 //! From blocks of numbers to sets: which column is the abscissa, how many values each has.
 
 use super::blocks::{Block, Numbers};
-use super::{header, listed};
+use super::clock::{join_date, join_fractions, pass_midnight};
+use super::{header, indices, listed};
 use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
 use crate::contents::{Axis, Channel, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
 use crate::source::Source;
+use crate::tree::{Sampling, sampling};
 use uff::Values;
 
 /// Values of a column.
@@ -53,17 +55,25 @@ pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>)
     blocks.into_iter().enumerate().map(|(i, block)| one(named(i), block)).unzip()
 }
 
-fn one(name: String, mut block: Block) -> (Set, Columns) {
-    let width = block.columns.len();
-    let mut header = header::read(&block.header, width);
+/// The header of a block, its column of the abscissa, and what is said of its clock and its rate.
+fn prepared(block: &mut Block) -> (header::Header, Option<(usize, Kind)>, Vec<String>) {
+    let mut header = header::read(&block.header, block.columns.len());
     listed::take(&mut header, &block.header);
-    join_date(&mut header, &mut block);
-    let midnight = pass_midnight(&mut block);
+    indices::keep(&mut header);
+    join_date(&mut header, block);
+    join_fractions(&mut header, block);
+    let midnight = pass_midnight(block);
     let axis = find_axis(&header, &block.columns, block.rows);
+    let rate = if axis.is_none() && header.step.is_none() { stated_step(&mut header, block) } else { None };
+    (header, axis, midnight.into_iter().chain(rate).collect())
+}
+
+fn one(name: String, mut block: Block) -> (Set, Columns) {
+    let (header, axis, said) = prepared(&mut block);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
     set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
-    set.notes.extend(midnight);
+    set.notes.extend(said);
     set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
@@ -152,37 +162,20 @@ fn without_empty_ends(block: &mut Block, axis: usize) -> Option<String> {
     ))
 }
 
-/// Seconds of a day.
-const DAY: f64 = 86400.0;
-
-/// Times of day that begin anew at midnight go on over it; says so.
-fn pass_midnight(block: &mut Block) -> Option<String> {
-    let of_day = |column: &&mut Numbers| column.clock && column.re.iter().all(|value| (0.0..DAY).contains(value));
-    let mut passed = false;
-    for column in block.columns.iter_mut().take(2).filter(of_day) {
-        let (mut days, mut before) = (0.0, f64::NEG_INFINITY);
-        for value in &mut column.re {
-            // Times in disorder stay what they are: only a fall by most of a day is midnight.
-            days += if before - *value > 0.5 * DAY { DAY } else { 0.0 };
-            before = *value;
-            *value += days;
+/// The step that a column of its own states, such as `Fs` with 400 in its first row: the column is no channel. Says so.
+fn stated_step(header: &mut header::Header, block: &mut Block) -> Option<String> {
+    for (i, numbers) in block.columns.iter_mut().enumerate() {
+        let Some(&value) = numbers.re.first().filter(|_| numbers.first == 0 && numbers.im.is_empty()) else { continue };
+        let constant = numbers.re.iter().all(|other| other.is_nan() || *other == value);
+        if let Some(Sampling::Step(step)) = sampling(&header.names[i], value).filter(|_| constant && block.rows > 1) {
+            let said = format!("column {} states {} = {value} of all samples", i + 1, header.names[i]);
+            header.step = Some(step);
+            header.names[i].clear();
+            *numbers = Numbers::default();
+            return Some(said);
         }
-        passed |= days > 0.0;
     }
-    passed.then(|| "the clock passes midnight: the times go on over it".to_owned())
-}
-
-/// A column of dates and one of times of day behind it are one clock.
-fn join_date(header: &mut header::Header, block: &mut Block) {
-    let [dates, times, ..] = &mut block.columns[..] else { return };
-    let whole = |values: &[f64]| values.iter().all(|value| value % DAY == 0.0);
-    let same = dates.re.len() == times.re.len() && dates.clock && times.clock;
-    if same && whole(&dates.re) && !whole(&times.re) && times.re.iter().all(|value| (0.0..DAY).contains(value)) {
-        times.re.iter_mut().zip(&dates.re).for_each(|(time, date)| *time += date);
-        *dates = Numbers::default();
-        header.names[0].clear();
-        header.units[0].clear();
-    }
+    None
 }
 
 /// Names of a column that counts the rows.

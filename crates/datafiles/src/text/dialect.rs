@@ -42,22 +42,24 @@ impl Dialect {
     pub(crate) fn sniff(text: &str) -> Option<Self> {
         let sample = sample(text);
         // The first of the best: later candidates must be better, not as good.
-        let mut best: Option<(usize, Self)> = None;
+        let mut best: Option<((usize, usize), Self)> = None;
         for candidate in CANDIDATES {
             let score = candidate.score(&sample);
-            if score > best.map_or(0, |(most, _)| most) {
+            if score > best.map_or((0, 0), |(most, _)| most) {
                 best = Some((score, candidate));
             }
         }
         best.map(|(_, dialect)| dialect)
     }
 
-    /// Lines of numbers of the commonest width; a line of several cells counts a little more than one of a single.
-    fn score(self, sample: &[&str]) -> usize {
+    /// Lines of numbers of the commonest width; a line of several cells counts a little more than one of a single. Among equals
+    /// goes the one with most lines of nothing but numbers: `12:00:01;1,5` has no remark behind its clock, but a decimal comma.
+    fn score(self, sample: &[&str]) -> (usize, usize) {
         let mut widths = std::collections::BTreeMap::<usize, usize>::new();
-        let mut cells = Vec::new();
+        let (mut cells, mut whole) = (Vec::new(), 0);
         for line in sample {
             self.cells(line, &mut cells);
+            whole += usize::from(!cells.iter().any(|cell| matches!(cell, Cell::Word(_))));
             let width = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
             let numbers = cells.iter().filter(|cell| cell.is_number()).count();
             // A word in the last cell is a remark.
@@ -69,7 +71,8 @@ impl Dialect {
         }
         let total: usize = widths.values().sum();
         let (width, common) = widths.into_iter().max_by_key(|&(_, count)| count).unwrap_or((0, 0));
-        (2 * total + common) * 4 + usize::from(width > 1)
+        let score = (2 * total + common) * 4 + usize::from(width > 1);
+        if total > 0 { (score, whole) } else { (0, 0) }
     }
 
     /// Cuts a line into cells.
@@ -169,6 +172,7 @@ mod tests {
         assert_eq!(of("1,0 2,0\n1,5 2,5\n"), (Blanks, true));
         assert_eq!(of("1, 2, 3\n4, 5, 6\n"), (Letter(','), false));
         assert_eq!(of("time,a\n1.0D+00,2.0D-3\n"), (Letter(','), false));
+        assert_eq!(of("Zeit;F\n12:00:01;1,5\n12:00:02;2,5\n"), (Letter(';'), true));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod decode;
 mod dialect;
 mod lvm;
+mod names;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
@@ -11,6 +12,7 @@ use crate::table::{Blocks, TableSource, finish};
 pub(crate) use decode::decode;
 use decode::numbered;
 use dialect::{Dialect, Separator};
+pub use names::listed_names;
 use std::path::Path;
 
 /// Largest text file that is read, bytes: its numbers are kept in memory.
@@ -45,7 +47,9 @@ pub(crate) fn read(bytes: &[u8]) -> Read<(Contents, Box<dyn Source>)> {
 
 fn table(text: &str) -> Read<(Contents, TableSource)> {
     let Some(dialect) = Dialect::sniff(text) else {
-        return Err(Fault::new("is text without a row of numbers; export the measurement with its samples"));
+        return Err(Fault::new(
+            "is text without a row of numbers; export the measurement with its samples (names of the columns of another file: import both together)",
+        ));
     };
     let mut blocks = Blocks::default();
     let mut cells = Vec::new();

@@ -1,11 +1,13 @@
 //! Files that are trees of named arrays (MAT, HDF5, NumPy): which arrays are channels of one set, which is their abscissa.
 
 mod abscissa;
+mod columns;
 mod headers;
 mod labels;
 mod names;
 mod own_times;
 mod points;
+mod repeated;
 mod sets;
 mod source;
 mod timeseries;
@@ -19,6 +21,8 @@ use crate::contents::FIRST;
 
 /// Most channels that one array is cut into.
 const MOST_CHANNELS: u64 = 4096;
+/// The same of arrays of three and more extents, whose channels are those of many tests.
+const MOST_OF_TESTS: u64 = 1 << 16;
 /// Most values of an array that are read when its tree is made, to see whether an abscissa is even.
 pub(crate) const MOST_CHECKED: u64 = 1 << 20;
 
@@ -108,20 +112,25 @@ impl Shape {
         matches!(self.extents[..], [a, b] if a == b)
     }
 
+    /// Which extent is that of the samples: the first of length `samples`, else the longest.
+    pub(crate) fn along(&self, samples: Option<u64>) -> Option<usize> {
+        let said = samples.and_then(|samples| self.extents.iter().position(|&extent| extent == samples));
+        said.or_else(|| (0..self.extents.len()).max_by_key(|&i| (self.extents[i], usize::MAX - i)))
+    }
+
     /// Channels along the longest extent, or along the one of length `samples`; none where there are too many.
     pub(crate) fn cut(&self, samples: Option<u64>) -> Option<Cut> {
         let total = self.len()?;
         if total == 0 || self.extents.is_empty() {
             return Some(Cut::vector(total));
         }
-        let longest = (0..self.extents.len()).max_by_key(|&i| (self.extents[i], usize::MAX - i))?;
-        let along =
-            samples.and_then(|samples| self.extents.iter().position(|&extent| extent == samples)).unwrap_or(longest);
+        let along = self.along(samples)?;
         let count = self.extents[along];
         let fast = if self.column_major { &self.extents[..along] } else { &self.extents[along + 1..] };
         let stride: u64 = fast.iter().product();
         let channels = total / count;
-        (channels <= MOST_CHANNELS).then_some(Cut { channels, count, stride, inner: stride, outer: stride * count })
+        let most = if self.extents.len() > 2 { MOST_OF_TESTS } else { MOST_CHANNELS };
+        (channels <= most).then_some(Cut { channels, count, stride, inner: stride, outer: stride * count })
     }
 
     /// Places of the values that a listing shows: the first of each channel, and the last of all.
@@ -130,6 +139,10 @@ impl Shape {
         let total = self.len().unwrap_or(0);
         for along in 0..self.extents.len().max(1) {
             let Some(cut) = self.cut(self.extents.get(along).copied()) else { continue };
+            // Many channels are shown along the longest extent alone.
+            if cut.channels > MOST_CHANNELS && Some(along) != self.along(None) {
+                continue;
+            }
             for channel in 0..cut.channels {
                 wanted.extend((0..cut.count.min(FIRST as u64)).map(|i| cut.offset(channel) + i * cut.stride));
             }

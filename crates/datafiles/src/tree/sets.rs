@@ -5,18 +5,19 @@
 //! of `x_values` and `y_values` is one signal (exports of Simcenter Testlab).
 
 use super::abscissa::Abscissa;
+use super::columns::{self, Columns, first, number};
 use super::headers::with_headers;
 use super::labels::Labels;
 use super::names::{self, Sampling};
 use super::own_times::OwnTimes;
+use super::repeated::Repeated;
 use super::source::Place;
 use super::timeseries::name_data;
-use super::{Array, Arrays, Cut, Entry, MOST_CHECKED, Node, Shape};
+use super::{Array, Arrays, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
-use crate::contents::{Axis, Channel, FIRST, Kind, Number, Set};
+use crate::contents::{Axis, Channel, FIRST, Kind, Set};
 use crate::error::{Read, one_line};
-use crate::parts::unit_of_part;
-use crate::units::{is_unit, suffix};
+use crate::units::is_unit;
 
 /// Most notes that are kept of a group.
 const MOST_NOTES: usize = 40;
@@ -25,9 +26,9 @@ const DEEPEST: usize = 64;
 
 /// What a group hands to those below it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Context {
-    step: Option<f64>,
-    start: f64,
+pub(super) struct Context {
+    pub step: Option<f64>,
+    pub start: f64,
 }
 
 /// Sets of a tree, and where their channels are.
@@ -93,6 +94,8 @@ impl Made<'_> {
     ) -> Read<()> {
         let mut set = Set::new(path, Kind::Table);
         let (mut places, times) = (Vec::new(), OwnTimes::among(entries, self.arrays)?);
+        let over_time = axis.is_none_or(|axis| axis.kind == Kind::Time);
+        let tests = Repeated::among(entries, axis.map(|axis| axis.count), labels).filter(|_| over_time);
         for (i, entry) in entries.iter().enumerate().filter(|(i, _)| !times.is_time(*i)) {
             match &entry.node {
                 Node::Array(array) => {
@@ -103,8 +106,11 @@ impl Made<'_> {
                     } else {
                         let axis = times.of(i).or(axis);
                         let is_axis = axis.is_some_and(|axis| axis.entry == Some(i));
-                        let (axis, context) = if is_axis { (None, Context::default()) } else { (axis, context) };
-                        channels(&mut set, &mut places, entry, array, axis, context, labels);
+                        if !is_axis && tests.as_ref().is_some_and(|tests| tests.takes(entry)) {
+                            continue;
+                        }
+                        let over = if is_axis { (Context::default(), None) } else { (context, axis) };
+                        columns::add((&mut set, &mut places), &Columns::of(entry, array), over, labels, None);
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
@@ -118,11 +124,57 @@ impl Made<'_> {
         for (name, value) in attributes {
             note(&mut set, format!("{name}: {value}"));
         }
-        if !set.channels.is_empty() || entries.iter().any(|entry| matches!(entry.node, Node::Skipped(_))) {
+        let Some(tests) = tests else {
+            if !set.channels.is_empty() || entries.iter().any(|entry| matches!(entry.node, Node::Skipped(_))) {
+                self.sets.push(set);
+                self.places.push(places);
+            }
+            return Ok(());
+        };
+        // Nothing but the times lies beside the tests.
+        let alone = set.channels.len() <= usize::from(axis.is_some_and(|axis| axis.entry.is_some()));
+        let notes = if alone { std::mem::take(&mut set.notes) } else { Vec::new() };
+        if !alone {
             self.sets.push(set);
             self.places.push(places);
         }
+        self.tests((path, entries, attributes), (context, axis), labels, &tests, notes);
         Ok(())
+    }
+
+    /// Every test of arrays of three and more extents as a set; `notes` are those of the group.
+    fn tests(
+        &mut self,
+        (path, entries, attributes): (&str, &[Entry], &[(String, String)]),
+        over: (Context, Option<&Abscissa>),
+        labels: &Labels,
+        tests: &Repeated,
+        mut notes: Vec<String>,
+    ) {
+        let taken = entries
+            .iter()
+            .enumerate()
+            .filter(|(i, entry)| tests.takes(entry) && over.1.is_none_or(|axis| axis.entry != Some(*i)));
+        let arrays: Vec<Columns<'_>> = taken
+            .filter_map(|(_, entry)| match &entry.node {
+                Node::Array(array) => Some(Columns::of(entry, array)),
+                _ => None,
+            })
+            .collect();
+        let column_major = arrays.first().is_some_and(|columns| columns.array.shape.column_major);
+        notes.insert(0, tests.note.clone());
+        for test in 0..tests.count() {
+            let mut set = Set::new(tests.name(path, test, column_major), Kind::Table);
+            set.notes = std::mem::take(&mut notes);
+            let mut places = Vec::new();
+            for columns in &arrays {
+                let chosen = tests.channels(columns.array, test);
+                columns::add((&mut set, &mut places), columns, over, labels, Some((tests.samples(), &chosen)));
+            }
+            finish(&mut set, entries, attributes, over.1);
+            self.sets.push(set);
+            self.places.push(places);
+        }
     }
 
     /// The vector that is the abscissa of a group.
@@ -207,7 +259,7 @@ impl Made<'_> {
         };
         let mut set = Set::new(path, kind);
         x_unit.clone_into(&mut set.axis_unit);
-        let mut places = Vec::new();
+        let (mut places, wanted) = (Vec::new(), array.shape.wanted());
         for c in 0..cut.channels {
             let listed = |list: &[String]| list.get(c as usize).filter(|_| list.len() as u64 == cut.channels).cloned();
             let numbered = if cut.channels > 1 { format!("{name}[{}]", c + 1) } else { name.to_owned() };
@@ -215,7 +267,7 @@ impl Made<'_> {
             let mut channel = Channel::new(label, listed(&units).unwrap_or_else(|| unit.to_owned()), cut.count);
             channel.complex = array.complex;
             channel.axis = Axis::Even { start, step };
-            channel.first = first(array, &cut, c);
+            channel.first = first(array, &wanted, &cut, c);
             if cut.channels == 1 {
                 channel.attributes = sides(entries, array.complex);
             }
@@ -268,76 +320,12 @@ impl Context {
         self
     }
 
-    fn take(&mut self, sampling: Option<Sampling>) {
+    pub(super) fn take(&mut self, sampling: Option<Sampling>) {
         match sampling {
             Some(Sampling::Step(step)) => self.step = Some(step),
             Some(Sampling::Start(start)) => self.start = start,
             None => {}
         }
-    }
-}
-
-fn channels(
-    set: &mut Set,
-    places: &mut Vec<Place>,
-    entry: &Entry,
-    array: &Array,
-    axis: Option<&Abscissa>,
-    context: Context,
-    labels: &Labels,
-) {
-    let axis = axis.filter(|axis| array.shape.extents.contains(&axis.count));
-    let Some(cut) = array.shape.cut(axis.map(|axis| axis.count)) else {
-        note(set, format!("\"{}\" is not read: it would make too many channels; save it in pieces", entry.name));
-        return;
-    };
-    let mut own = context;
-    for (name, value) in &entry.attributes {
-        own.take(value.parse().ok().and_then(|value| names::sampling(name, value)));
-    }
-    let beside =
-        labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
-    let side = labels.sides.iter().find(|(array, ..)| entry.name.eq_ignore_ascii_case(array));
-    let list_of = |word: fn(&str) -> bool| -> Vec<String> {
-        let said = entry.attributes.iter().find(|(name, value)| word(name) && value.contains(", "));
-        said.map(|(_, value)| value.split(", ").map(str::to_owned).collect()).unwrap_or_default()
-    };
-    let (own_names, own_units) = (list_of(names::is_names_word), list_of(names::is_unit_word));
-    for c in 0..cut.channels {
-        let listed = |list: &[String]| (list.len() as u64 == cut.channels).then(|| list[c as usize].clone());
-        let numbered = if cut.channels > 1 { format!("{}[{}]", entry.name, c + 1) } else { entry.name.clone() };
-        let beside_name = side.and_then(|(_, names, _)| listed(names));
-        let name = beside_name.or_else(|| listed(&own_names).filter(|_| cut.channels > 1));
-        let name = name.or_else(|| listed(&labels.names).filter(|_| cut.channels > 1));
-        // A place alone does not say what was measured there; the name of the array may.
-        let place = |name: &String| name.starts_with(|c: char| c.is_ascii_digit());
-        let told_apart = |name: &String| place(name) || labels.shared && labels.names.contains(name);
-        let name = name.map(|name| if told_apart(&name) { format!("{} {name}", entry.name) } else { name });
-        let name = name.unwrap_or(numbered);
-        let single = names::unit_of(&entry.attributes).filter(|_| own_units.is_empty());
-        let unit = single
-            .map(str::to_owned)
-            .or_else(|| listed(&own_units))
-            .or_else(|| side.and_then(|(_, _, units)| listed(units)))
-            .or_else(|| beside.map(str::to_owned))
-            .or_else(|| suffix(&entry.name).filter(|_| cut.channels == 1).map(|(_, unit)| unit.to_owned()));
-        // One unit beside functions is that of all of them.
-        let of_all = || labels.units.first().filter(|_| array.complex && labels.units.len() == 1).cloned();
-        let unit = unit
-            .or_else(|| unit_of_part(&entry.name, &labels.units))
-            .or_else(|| listed(&labels.units).filter(|_| kind_of(&entry.name, "").is_none()));
-        let unit = unit.or_else(of_all).unwrap_or_default();
-        let mut channel = Channel::new(name, unit, cut.count);
-        channel.complex = array.complex;
-        channel.attributes.clone_from(&entry.attributes);
-        channel.axis = match (axis, own.step) {
-            (Some(axis), _) => Axis::Stored { step: axis.step },
-            (None, Some(step)) if cut.count > 1 => Axis::Even { start: own.start, step },
-            _ => Axis::None,
-        };
-        channel.first = first(array, &cut, c);
-        set.channels.push(channel);
-        places.push(Place { id: array.id, cut: cut.clone(), channel: c, whole: false, axis: axis.map(|axis| axis.id) });
     }
 }
 
@@ -372,16 +360,7 @@ fn kind(set: &Set, axis: Option<&Abscissa>) -> Kind {
     }
 }
 
-fn first(array: &Array, cut: &Cut, channel: u64) -> Vec<Number> {
-    let places = (0..cut.count.min(FIRST as u64)).map(|i| cut.offset(channel) + i * cut.stride);
-    places.filter_map(|place| array.at(place)).map(|value| number(value, array.complex)).collect()
-}
-
-fn number(value: [f64; 2], complex: bool) -> Number {
-    if complex { Number::Complex(value) } else { Number::Real(value[0]) }
-}
-
-fn note(set: &mut Set, text: String) {
+pub(super) fn note(set: &mut Set, text: String) {
     if set.notes.len() < MOST_NOTES {
         set.notes.push(one_line(&text, 160));
     }

@@ -11,7 +11,7 @@ mod dmig;
 use crate::edges::{Edges, Shape};
 use crate::error::{FileError, Problem};
 use crate::number::{real, whole};
-use crate::{Geometry, Matrix, Node};
+use crate::{Geometry, Matrix, Node, Turned};
 use cards::{Card, cards};
 use coordinates::Systems;
 use std::borrow::Cow;
@@ -100,7 +100,8 @@ struct Reader<'a> {
     systems: Systems,
     edges: Edges,
     matrices: dmig::Matrices,
-    unread: BTreeMap<&'static str, usize>,
+    /// Number of grid points of the fluid.
+    fluid: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -109,15 +110,11 @@ impl<'a> Reader<'a> {
             "GRID" => self.grid(card, file)?,
             "GRDSET" => self.defaults = [card.field(1), card.field(5)],
             "CORD2R" | "CORD2C" | "CORD2S" => self.systems.add(card)?,
-            "CORD1R" | "CORD1C" | "CORD1S" => self.note("coordinate systems CORD1R, CORD1C and CORD1S are not read"),
+            "CORD1R" | "CORD1C" | "CORD1S" => self.systems.add_by_grids(card)?,
             "DMIG" => self.matrices.card(card)?,
             name => return self.element(name, card),
         }
         Ok(())
-    }
-
-    fn note(&mut self, text: &'static str) {
-        *self.unread.entry(text).or_default() += 1;
     }
 
     fn grid(&mut self, card: &Card<'a>, file: &'a str) -> Result<(), Problem> {
@@ -158,38 +155,58 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn finish(self, file: &str) -> Result<Bulk, FileError> {
-        let mut nodes: Vec<Node> = Vec::with_capacity(self.grids.len());
-        let mut places: HashMap<i64, usize> = HashMap::new();
-        let mut turned: BTreeMap<i64, usize> = BTreeMap::new();
+    fn finish(mut self, file: &str) -> Result<Bulk, FileError> {
+        let (nodes, turned) = self.nodes()?;
+        let (matrices, skipped) = self.matrices.finish(file)?;
+        let mut notes = notes(&turned, self.fluid);
+        notes.extend(skipped);
+        Ok(Bulk { geometry: Geometry { nodes, lines: self.edges.finish(), turned, notes }, matrices })
+    }
+
+    /// Positions in the basic system, and the nodes whose displacements are in others.
+    fn nodes(&mut self) -> Result<(Vec<Node>, Vec<Turned>), FileError> {
+        let mut stated = Vec::with_capacity(self.grids.len());
         for grid in &self.grids {
             let wrong = |problem| FileError::line(grid.file, grid.line, problem);
             let [system, directions] = [(grid.system, self.defaults[0]), (grid.directions, self.defaults[1])]
-                .map(|(own, otherwise)| system(if own.is_empty() { otherwise } else { own }));
-            let position = self.systems.basic(system.map_err(wrong)?, grid.position).map_err(wrong)?;
-            let directions = directions.map_err(wrong)?;
-            if directions != 0 {
-                *turned.entry(directions).or_default() += 1;
-            }
+                .map(|(own, otherwise)| system(if own.is_empty() { otherwise } else { own }).map_err(wrong));
+            let (system, directions) = (system?, directions?);
+            self.systems.place(grid.id, system, grid.position);
+            stated.push((system, directions));
+        }
+        let (mut nodes, mut turned) = (Vec::with_capacity(self.grids.len()), Vec::new());
+        let mut places: HashMap<i64, usize> = HashMap::new();
+        for (grid, (system, directions)) in self.grids.iter().zip(stated) {
+            let wrong = |problem| FileError::line(grid.file, grid.line, problem);
+            let position = self.systems.basic(system, grid.position).map_err(wrong)?;
             match places.get(&grid.id) {
-                Some(&known) if nodes[known].position == position => {}
+                Some(&known) if nodes[known] == Node { id: grid.id, position } => continue,
                 Some(_) => return Err(wrong(Problem::NodeTwice { id: grid.id })),
-                None => {
-                    places.insert(grid.id, nodes.len());
-                    nodes.push(Node { id: grid.id, position });
-                }
+                None => places.insert(grid.id, nodes.len()),
+            };
+            nodes.push(Node { id: grid.id, position });
+            self.fluid += usize::from(directions < 0);
+            if directions > 0 {
+                let axes = self.systems.directions(directions, position).map_err(wrong)?;
+                turned.push(Turned { node: grid.id, system: directions, axes });
             }
         }
-        let turned = turned.into_iter().map(|(id, count)| {
-            let what = if id < 0 { "the fluid".to_owned() } else { format!("coordinate system {id}") };
-            format!("directions of {count} grid points are those of {what}, not x, y and z of the basic system")
-        });
-        let notes = self.unread.keys().map(|text| (*text).to_owned()).chain(turned).collect();
-        let (matrices, skipped) = self.matrices.finish(file)?;
-        let mut notes: Vec<String> = notes;
-        notes.extend(skipped);
-        Ok(Bulk { geometry: Geometry { nodes, lines: self.edges.finish(), notes }, matrices })
+        Ok((nodes, turned))
     }
+}
+
+/// What is said of nodes whose directions are not those of the basic system.
+fn notes(turned: &[Turned], fluid: usize) -> Vec<String> {
+    let mut systems: BTreeMap<i64, usize> = BTreeMap::new();
+    turned.iter().for_each(|node| *systems.entry(node.system).or_default() += 1);
+    let of_system = |(id, count): (&i64, &usize)| {
+        format!(
+            "displacements of {count} grid points are in coordinate system {id}: they are turned to x, y and z of the basic system"
+        )
+    };
+    let fluid =
+        (fluid > 0).then(|| format!("{fluid} grid points are those of the fluid, with pressures in place of motions"));
+    systems.iter().map(of_system).chain(fluid).collect()
 }
 
 fn grid(text: &str) -> Result<i64, Problem> {
@@ -271,7 +288,7 @@ ENDDATA
         let position = bulk.geometry.nodes[0].position;
         let exact = [4.0, 0.0, 2.0];
         assert!((0..3).all(|k| (position[k] - exact[k]).abs() < 1e-14), "{position:?}");
-        assert!(bulk.geometry.notes[0].starts_with("directions of 1 grid points are those of coordinate system 5"));
+        assert!(bulk.geometry.notes[0].starts_with("displacements of 1 grid points are in coordinate system 5"));
     }
 
     #[test]
