@@ -13,6 +13,7 @@ mod compare;
 mod fit;
 mod ranking;
 mod search;
+mod sums;
 
 pub use crate::balance::loops::{ComponentError, Loops};
 pub use compare::compare_component;

@@ -1,4 +1,4 @@
-//! Single laws and sums of two in one order: by what they leave of loops that were left out.
+//! Single laws and sums in one order: by what they leave of loops that were left out.
 //!
 //! ```text
 //! score_k = n ln(e_k^2) + p_k ln n     e_k: relative error of each record by laws fitted to the others, root mean square;
@@ -17,8 +17,7 @@ use crate::math::statistics::root_mean_square;
 /// Fits of each number of laws that are left out and predicted, and the steps of their fits.
 const PREDICTED: usize = 3;
 const STEPS: usize = 8;
-/// Share of the error of one law that a sum of two may at most leave where it was left out: 0.8 takes away a third of its
-/// square.
+/// Share of the error of fewer laws that a sum may at most leave where it was left out: 0.8 takes away a third of its square.
 const WORTH: f64 = 0.8;
 /// Share of the error of a law of fewer parameters, where it was left out, that one of more may at most leave.
 const PLAIN: f64 = 0.9;
@@ -29,17 +28,18 @@ impl Search<'_> {
         fits.iter().map(|f| Ranked { fit: f.clone(), held_out: None, criterion: self.criterion(f) }).collect()
     }
 
-    /// All fits, what is told first in front: one law unless a sum of two predicts clearly better, the others by what they predict.
-    pub(super) fn ranked(&self, singles: &[Fitted], pairs: &[Fitted]) -> Result<Vec<Ranked>, ComponentError> {
-        let one = self.predicted(singles)?;
-        let two = self.predicted(pairs)?;
-        let first = match (plainest(&one), plainest(&two)) {
-            (Some(a), Some(b)) if predicts(b) < WORTH * predicts(a) => b.fit.clone(),
-            (Some(a), _) => a.fit.clone(),
-            (None, Some(b)) => b.fit.clone(),
-            (None, None) => return Ok(Vec::new()),
-        };
-        let mut all: Vec<Ranked> = one.into_iter().chain(two).collect();
+    /// All fits, what is told first in front: fewer laws unless more predict clearly better, the others by what they
+    /// predict.
+    pub(super) fn ranked(&self, sizes: &[Vec<Fitted>]) -> Result<Vec<Ranked>, ComponentError> {
+        let sizes: Vec<Vec<Ranked>> = sizes.iter().map(|fits| self.predicted(fits)).collect::<Result<_, _>>()?;
+        let mut first: Option<&Ranked> = None;
+        for more in sizes.iter().filter_map(|list| plainest(list)) {
+            if first.is_none_or(|fewer| predicts(more) < WORTH * predicts(fewer)) {
+                first = Some(more);
+            }
+        }
+        let Some(first) = first.map(|ranked| ranked.fit.clone()) else { return Ok(Vec::new()) };
+        let mut all: Vec<Ranked> = sizes.into_iter().flatten().collect();
         // What was predicted goes before what was not.
         let unseen = |r: &Ranked| r.held_out.is_none();
         all.sort_by(|a, b| unseen(a).cmp(&unseen(b)).then(a.criterion.total_cmp(&b.criterion)));

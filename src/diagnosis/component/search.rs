@@ -1,43 +1,38 @@
-//! Which law, or which sum of two, the loops of a component show.
+//! Which law, or which sum of two or three, the loops of a component show.
 //!
 //! 1. Every law on the grid of its shapes, scaled to the force; every pair of shapes likewise, by their products.
-//! 2. The best of each are fitted in all their parameters.
-//! 3. Each record is left out in turn and predicted from the others: a sum of two is told first only where it predicts clearly
-//!    better than one law. All, single laws and sums, are ranked by what they leave of the records that were left out
+//! 2. The best of each are fitted in all their parameters; where sums of two leave more than the noise, a third law is added to the
+//!    best of them (`sums`).
+//! 3. Each record is left out in turn and predicted from the others: a sum is told first only where it predicts clearly better
+//!    than fewer laws. All, single laws and sums, are ranked by what they leave of the records that were left out
 //!    ([`super::ranking`]).
 
 use super::compare::noise_floor;
-use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, residual};
+use super::fit::{Fitted, Ranked, error, freedom, improved, predicted};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::result::{Added, Diagnosis, Early, Step, Suggestion, Verdict};
-use crate::effects::{Effect, Place, Source, State};
+use crate::effects::Source;
 use crate::math::statistics::{evidence_weights, root_mean_square};
-use dashpot_numerics::dot;
 
-/// Rows on which shapes are compared, shapes a law that go into pairs, fits of one law and of two.
-const ROWS: usize = 4000;
-const SHAPES: usize = 6;
+/// Fits of one law, of two and of three.
 const SINGLES: usize = 12;
 const PAIRS: usize = 10;
+const TRIPLES: usize = 10;
 const ITERATIONS: usize = 20;
-/// Error over that of the noise up to which a model agrees.
+/// Error over that of the noise up to which a model agrees, and from which on a third law is looked for: below, what it adds is an error
+/// of the other two.
 const AGREES: f64 = 1.1;
+const LACKING: f64 = 2.0;
 /// Error from which on the best laws explain nothing.
 const POOR: f64 = 0.5;
 /// Difference of evidence within which laws cannot be told apart.
 const ALIKE: f64 = 6.0;
+/// Error over that of the noise from which on it is said that more is in the loops.
+const TOLD: f64 = 3.0;
 /// Most suggestions.
 const MOST: usize = 8;
-
-/// A law in one shape, its force in unit scale over rows of all records.
-struct Column {
-    source: Source,
-    rows: Vec<f64>,
-    square: f64,
-    against: f64,
-}
 
 /// Finds what the model of a component lacks; effects `excluded` are not suggested.
 ///
@@ -78,15 +73,19 @@ pub fn diagnose_component(
     control.report(0.4);
     early(&search.suggestions(&search.by_evidence(&singles))?);
     let pairs = search.fitted(Search::pairs(&columns), PAIRS)?;
+    control.report(0.6);
+    let lacks = pairs.first().is_some_and(|best| best.error(loops.list.len()) > LACKING * floor);
+    let triples = if lacks { search.fitted(search.triples(&columns, &pairs)?, TRIPLES)? } else { Vec::new() };
     control.report(0.8);
-    let ranked = search.ranked(&singles, &pairs)?;
+    let sizes = [singles, pairs, triples];
+    let ranked = search.ranked(&sizes)?;
     let Some(best) = ranked.first().map(|r| r.fit.clone()) else { return Err(ComponentError::NoRuns) };
     // The law that was found carries the noise of the displacement to the force.
     let floor = noise_floor(loops, &best.effects)?;
     diagnosis.noise_floor = floor;
     let misfit = |error: f64| (error / floor.max(f64::MIN_POSITIVE)).powi(2);
     let records = loops.list.len();
-    for fits in [&singles, &pairs] {
+    for fits in &sizes {
         let top = if fits.first().is_some_and(|f| f.effects.len() == best.effects.len()) {
             Some(&best)
         } else {
@@ -98,6 +97,9 @@ pub fn diagnose_component(
         }
     }
     diagnosis.suggestions = search.suggestions(&ranked)?;
+    if let Some(first) = diagnosis.suggestions.first_mut() {
+        first.evidence.extend(beyond_noise(best.error(records) / floor.max(f64::MIN_POSITIVE)));
+    }
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
     diagnosis.verdict = match best.error(records) {
         error if error > POOR => Verdict::Unexplained,
@@ -117,87 +119,6 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Every law in every shape.
-    fn columns(&self) -> Result<Vec<Column>, ComponentError> {
-        let measured = Self::thinned(residual(self.loops, &[], &self.all)?);
-        let range = self.loops.range();
-        let mut columns = Vec::new();
-        for (effect, _) in Effect::relative() {
-            self.control.check()?;
-            for parameters in effect.shapes(&range) {
-                let source = Source { effect, place: Place::Dofs(vec![0]), state: State::Known, parameters };
-                let taken = |list: &[Source]| list.iter().any(|s| s.is_same(&source));
-                if taken(self.excluded) || self.loops.list[0].law_force(&source).is_none() {
-                    continue;
-                }
-                // What is left with the law less what is left without it: its force, zero taken out, with a minus.
-                let with = Self::thinned(residual(self.loops, std::slice::from_ref(&source), &self.all)?);
-                let rows: Vec<f64> = measured.iter().zip(&with).map(|(m, w)| m - w).collect();
-                let (square, against) = (dot(&rows, &rows), dot(&rows, &measured));
-                if square > 0.0 && square.is_finite() {
-                    columns.push(Column { source, rows, square, against });
-                }
-            }
-        }
-        Ok(columns)
-    }
-
-    fn thinned(rows: Vec<f64>) -> Vec<f64> {
-        let every = (rows.len() / ROWS).max(1);
-        rows.into_iter().step_by(every).collect()
-    }
-
-    /// The best shape of every law, best first.
-    fn single(columns: &[Column]) -> Vec<Vec<Source>> {
-        let mut found: Vec<(f64, Source)> = Vec::new();
-        for column in columns {
-            let Some(source) = sized(&column.source, column.against / column.square) else { continue };
-            let gain = column.against.powi(2) / column.square;
-            match found.iter_mut().find(|(_, s)| s.effect == source.effect) {
-                Some(own) if gain > own.0 => *own = (gain, source),
-                Some(_) => {}
-                None => found.push((gain, source)),
-            }
-        }
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        found.into_iter().map(|(_, source)| vec![source]).collect()
-    }
-
-    /// The best pair of shapes of every pair of laws, best first.
-    fn pairs(columns: &[Column]) -> Vec<Vec<Source>> {
-        let mut chosen: Vec<&Column> = Vec::new();
-        for (effect, _) in Effect::relative() {
-            let mut own: Vec<&Column> = columns.iter().filter(|c| c.source.effect == effect).collect();
-            let every = own.len().div_ceil(SHAPES).max(1);
-            own.sort_by(|a, b| (b.against.powi(2) / b.square).total_cmp(&(a.against.powi(2) / a.square)));
-            let best = own.first().copied();
-            chosen.extend(columns.iter().filter(|c| c.source.effect == effect).step_by(every));
-            chosen.extend(best);
-        }
-        let mut found: Vec<(f64, Vec<Source>)> = Vec::new();
-        for (i, a) in chosen.iter().enumerate() {
-            for b in chosen.iter().skip(i + 1).filter(|b| b.source.effect != a.source.effect) {
-                let product = dot(&a.rows, &b.rows);
-                let determinant = a.square * b.square - product * product;
-                if determinant < 1e-6 * a.square * b.square {
-                    continue;
-                }
-                let s = (b.square * a.against - product * b.against) / determinant;
-                let t = (a.square * b.against - product * a.against) / determinant;
-                let (Some(first), Some(second)) = (sized(&a.source, s), sized(&b.source, t)) else { continue };
-                let gain = s * a.against + t * b.against;
-                let same = |set: &[Source]| set[0].effect == first.effect && set[1].effect == second.effect;
-                match found.iter_mut().find(|(_, set)| same(set)) {
-                    Some(own) if gain > own.0 => *own = (gain, vec![first, second]),
-                    Some(_) => {}
-                    None => found.push((gain, vec![first, second])),
-                }
-            }
-        }
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        found.into_iter().map(|(_, set)| set).collect()
-    }
-
     /// The first `count` starts fitted in all parameters, by evidence.
     fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
         let few: Vec<Vec<Source>> = starts.into_iter().take(count).collect();
@@ -278,23 +199,26 @@ fn is_determined(source: &Source, deviations: &[f64]) -> bool {
         || source.parameters.iter().zip(deviations).all(|(p, d)| d.is_finite() && *d < p.abs())
 }
 
+/// What is said where a sum leaves that many times the noise.
+fn beyond_noise(times: f64) -> Option<String> {
+    let sentence = "the loops hold more than these laws give, and no sum of three laws here gives it.";
+    (times > TOLD).then(|| format!("That is {times:.1} times the noise: {sentence}"))
+}
+
 /// What is said of a law that stands in a sum.
 fn beside(fit: &Fitted, source: &Source) -> Option<String> {
-    let other = fit.effects.iter().find(|e| !e.is_same(source))?;
-    Some(format!("That is in a sum with another law: {}.", other.effect.title()))
+    let others: Vec<String> =
+        fit.effects.iter().filter(|e| !e.is_same(source)).map(|e| e.effect.title().to_string()).collect();
+    match &others[..] {
+        [] => None,
+        [other] => Some(format!("That is in a sum with another law: {other}.")),
+        _ => Some(format!("That is in a sum with other laws: {}.", others.join(", "))),
+    }
 }
 
 /// Number of parameters of all laws.
 pub(super) fn parameters(fit: &Fitted) -> usize {
     fit.effects.iter().map(|e| e.parameters.len()).sum()
-}
-
-/// A law of unit scale at a scale; none where its parameters do not allow it.
-fn sized(source: &Source, scale: f64) -> Option<Source> {
-    let mut source = source.clone();
-    source.effect.scaled().iter().for_each(|&k| source.parameters[k] *= scale);
-    let allowed = source.parameters.iter().zip(source.effect.parameters()).all(|(v, p)| p.allows(*v));
-    (scale.is_finite() && scale != 0.0 && allowed).then_some(source)
 }
 
 fn added(fit: &Fitted) -> Vec<Added> {
