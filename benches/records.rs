@@ -89,6 +89,7 @@ fn oscillator(c: &mut Criterion) {
         channels: &channels,
         factors: [1.0; 2],
         mode_stiffness: &[],
+        mode_damping: &[],
         shape_errors: &[],
         parts: &[],
         directions: &[],

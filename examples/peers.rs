@@ -120,6 +120,7 @@ fn oscillation(p: &Oscillator) -> Result<Value> {
         channels: &channels,
         factors: [1.0; 2],
         mode_stiffness: &[],
+        mode_damping: &[],
         shape_errors: &[],
         parts: &[],
         directions: &[],

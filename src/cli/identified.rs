@@ -17,6 +17,8 @@ use std::path::Path;
 
 /// Error of an undamped model, relative, from which on the comparison tells only that its damping is missing.
 const MEANINGLESS: f64 = 10.0;
+/// Probability from which on a suggestion names what `identify` found; below, it is as good as excluded.
+const NAMED: f64 = 0.01;
 /// Error of a model that predicts no motion at all.
 const NO_BETTER: f64 = 1.0;
 
@@ -96,7 +98,9 @@ impl Rival {
         let outcome = identify(&project.structure, &project.sources, &project.runs, &project.settings, control).ok()?;
         let sources = identified::take_over(&mut project, &outcome);
         let error = compare(&problem(&project), &[], control).ok()?.error;
-        let named = |source: &Source| diagnosis.suggestions.iter().any(|s| s.added.source.is_same(source));
+        let named = |source: &Source| {
+            diagnosis.suggestions.iter().any(|s| s.probability > NAMED && s.added.source.is_same(source))
+        };
         let rivals = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
         rivals.then_some(Self { sources, error, suggested })
     }

@@ -7,7 +7,7 @@
 //! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass, a support
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
-use super::mode_damping::modal_pattern;
+use super::mode_damping::{DampingOfMode, modal_pattern};
 use super::system::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
 
@@ -183,6 +183,41 @@ impl Structure {
         changed
     }
 
+    /// Factor on the damping that laws of the whole structure give a mode; 1 where it is not corrected.
+    pub fn mode_damping(&self, mode: usize) -> f64 {
+        self.origin.damping_of_modes.iter().find(|d| d.mode == mode).map_or(1.0, |d| d.factor)
+    }
+
+    /// Modes whose damping is corrected.
+    pub fn damping_of_modes(&self) -> &[DampingOfMode] {
+        &self.origin.damping_of_modes
+    }
+
+    /// Takes the factors on the damping of modes among `factors` beside those that are there, on the modes as they are now.
+    fn correct_damping(&mut self, factors: &[(Part, f64)]) {
+        let mut all: Vec<(usize, f64)> = self.origin.damping_of_modes.iter().map(|d| (d.mode, d.factor)).collect();
+        for &(part, factor) in factors {
+            let Part::ModeDamping(mode) = part else { continue };
+            match all.iter_mut().find(|(own, _)| *own == mode) {
+                Some((_, own)) => *own *= factor,
+                None => all.push((mode, factor)),
+            }
+        }
+        all.retain(|(_, factor)| *factor != 1.0);
+        self.origin.damping_of_modes.clear();
+        if all.is_empty() {
+            return;
+        }
+        let (Ok(modes), Some(matrices)) = (self.modes(), &self.matrices) else { return };
+        let of = |(mode, factor): (usize, f64)| DampingOfMode {
+            mode,
+            factor,
+            pattern: modal_pattern(&matrices.mass, modes.shapes.col_as_slice(mode)),
+            square: modes.omega[mode].powi(2),
+        };
+        self.origin.damping_of_modes = all.into_iter().filter(|(mode, _)| *mode < modes.len()).map(of).collect();
+    }
+
     fn scale_elements(&mut self, part: Part, factor: f64) {
         let all = [0, self.elements.len().saturating_sub(1)];
         let (range, mass) = match part {
@@ -208,7 +243,7 @@ impl Structure {
         for &(part, factor) in factors {
             let Part::Mode(r) = part else { continue };
             let shape = modes.shapes.col_as_slice(r);
-            let weighted = modal_pattern(matrices, shape);
+            let weighted = modal_pattern(&matrices.mass, shape);
             let size = (factor - 1.0) * modes.omega[r].powi(2);
             for j in 0..n {
                 for i in 0..n {

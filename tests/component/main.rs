@@ -65,6 +65,27 @@ fn a_sum_of_two_laws_is_found_in_its_loops() {
     assert!(diagnosis.suggestions[0].held_out_error_after < 0.1 * diagnosis.error_before);
 }
 
+/// A wire rope: smooth hysteresis on a spring that stiffens.
+#[test]
+fn a_sum_of_three_laws_is_found_in_its_loops() {
+    let truth =
+        [at(Effect::BoucWen, &[4e6, 9000.0, 1.5]), at(Effect::Stiffness, &[1.5e6]), at(Effect::CubicStiffness, &[8e9])];
+    let diagnosis = diagnosed(&[], &tests(&truth));
+    let set = &diagnosis.steps.last().unwrap().added;
+    let names: Vec<String> = set.iter().map(|a| format!("{} {:?}", a.source.effect, a.source.parameters)).collect();
+    assert_eq!((diagnosis.verdict, set.len()), (Verdict::Missing, 3), "{names:?}");
+    for source in &truth {
+        let found = set.iter().find(|a| a.source.is_same(source)).unwrap_or_else(|| panic!("{names:?}"));
+        for (value, expected) in found.source.parameters.iter().zip(&source.parameters) {
+            assert!((value / expected - 1.0).abs() < 0.1, "{names:?}");
+        }
+    }
+    // Of laws that no sum of three gives, it is said that more is in the loops.
+    let four = [&truth[..], &[at(Effect::Quadratic, &[250_000.0]), at(Effect::Coulomb, &[3000.0])]].concat();
+    let said = &diagnosed(&[], &tests(&four)).suggestions[0].evidence;
+    assert!(said.iter().any(|words| words.contains("times the noise")), "{said:?}");
+}
+
 /// Single laws and sums stand in one list, ranked by what they leave of loops that they were not fitted to.
 #[test]
 fn single_laws_stand_behind_the_sum_by_what_they_predict() {

@@ -3,7 +3,9 @@
 use super::support::{balanced, five_masses, source, whole};
 use crate::common::models::{chain, oscillator};
 use dashpot::effects::{Effect, Source};
+use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::response::harmonic_balance::{Excitation, Response, Settings};
+use dashpot::structure::Part;
 use faer::c64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -40,6 +42,43 @@ fn den_hartogs_oscillator_with_dry_friction() {
         let expected = force / stiffness * (v * v - (ratio * u).powi(2)).sqrt();
         let found = peak(&response);
         assert!((found / expected - 1.0).abs() < 1e-3, "w/wn {b}: {found} {expected}");
+    }
+}
+
+/// The sum of modes, each with its own damping: `x = sum_r phi_r phi_r^T F / (w_r^2 - w^2 + i w f_r (alpha + beta w_r^2))`, of few
+/// masses, whose receptance is an inverse, and of many, whose receptance is a sum of modes; the matrix of the dynamic stiffness and
+/// the energy that the laws take agree with it.
+#[test]
+fn modes_damped_each_by_itself() {
+    let (alpha, beta) = (0.8, 2e-5);
+    let sources = [whole(Effect::MassProportional, alpha), whole(Effect::StiffnessProportional, beta)];
+    for count in [5, 70] {
+        let masses: Vec<f64> = (0..count).map(|i| 1.0 + 0.1 * (i % 3) as f64).collect();
+        let ground: Vec<f64> = (0..count).map(|i| if i == 0 { 5e4 } else { 0.0 }).collect();
+        let stated = chain(&masses, &ground, &vec![7e4; count - 1]);
+        let factors = [(0, 1.6), (1, 0.4), (3, 2.5)];
+        let structure = stated.with_factors(&factors.map(|(mode, f)| (Part::ModeDamping(mode), f)));
+        let modes = stated.modes().unwrap();
+        let omega = 1.01 * modes.omega[1];
+        let excitation = Excitation::sine(omega, 2, c64::new(3.0, 0.0));
+        let response = balanced(&structure, &sources, &excitation, &Settings::default());
+        let factor = |mode: usize| factors.iter().find(|(m, _)| *m == mode).map_or(1.0, |(_, f)| *f);
+        let of = |dof: usize| {
+            let term = |r: usize| {
+                let square = modes.omega[r].powi(2);
+                let z = c64::new(square - omega * omega, omega * factor(r) * (alpha + beta * square));
+                c64::new(3.0 * modes.shapes[(dof, r)] * modes.shapes[(2, r)], 0.0) / z
+            };
+            (0..count).map(term).sum::<c64>()
+        };
+        let motion: Vec<c64> = (0..count).map(of).collect();
+        for (dof, expected) in motion.iter().enumerate() {
+            let found = response.amplitude(dof, 1);
+            assert!((found - expected).norm() < 1e-9 * motion[1].norm(), "{count}, DOF {dof}: {found} {expected}");
+        }
+        let z = DynamicStiffness::new(&structure, &sources).unwrap().matrix(omega);
+        let force = (0..count).map(|j| z[(2, j)] * motion[j]).sum::<c64>();
+        assert!((force - c64::new(3.0, 0.0)).norm() < 1e-8, "{count}: {force}");
     }
 }
 

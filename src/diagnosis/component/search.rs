@@ -201,8 +201,11 @@ fn is_determined(source: &Source, deviations: &[f64]) -> bool {
 
 /// What is said where a sum leaves that many times the noise.
 fn beyond_noise(times: f64) -> Option<String> {
-    let sentence = "the loops hold more than these laws give, and no sum of three laws here gives it.";
-    (times > TOLD).then(|| format!("That is {times:.1} times the noise: {sentence}"))
+    (times > TOLD).then(|| {
+        format!(
+            "That is {times:.1} times the noise: the loops hold more than these laws give, and no sum of three laws here gives it."
+        )
+    })
 }
 
 /// What is said of a law that stands in a sum.

@@ -10,7 +10,8 @@
 //! from that of the measurement: good sensors say nothing of how well a damper is known.
 
 use crate::diagnosis::updating::correction::Correction;
-use crate::diagnosis::updating::parameters::{Scales, UpdatingParameter};
+use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::scales::Scales;
 use dashpot_numerics::{dot, symmetric};
 use faer::Mat;
 

@@ -4,7 +4,7 @@ use super::amplitude::peaks;
 use super::part_directions::PartDirections;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
-use crate::effects::{Kind as EffectKind, Place, Source, State};
+use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::{median, root_mean_square};
 use crate::measurement::{Channel, Kind, TransientRun};
@@ -238,18 +238,6 @@ impl<'a> Records<'a> {
 }
 
 impl Records<'_> {
-    /// Modes whose damping by laws of the whole structure is corrected each by itself: no structure damps its modes in just the
-    /// proportion that these laws state. One mode alone is damped by their size.
-    pub(super) fn damped(&self) -> usize {
-        let whole = self.known.iter().any(|source| source.place == Place::Whole(None));
-        if whole && self.kept > 1 { self.kept } else { 0 }
-    }
-
-    /// Corrections of sizes: of the known sources and of the damping of modes.
-    pub(super) fn sizes(&self) -> usize {
-        self.known.len() + self.damped()
-    }
-
     /// Number of samples of all channels of all records.
     pub(super) fn samples(&self) -> usize {
         self.list.iter().map(|r| r.len() * r.channels.len()).sum()

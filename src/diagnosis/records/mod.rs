@@ -25,6 +25,7 @@ mod laws;
 pub(crate) mod localisation;
 mod missing_force;
 mod modal_equations;
+mod mode_damping;
 mod model_errors;
 mod neighbouring_places;
 mod next_test;

@@ -12,7 +12,7 @@ use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, beyond_priors, modes};
 use super::search::Search;
 use crate::diagnosis::result::Added;
-use crate::effects::Source;
+use crate::effects::{Place, Source};
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
@@ -30,17 +30,56 @@ impl Search<'_> {
         if self.control.is_late() {
             return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..beyond_priors(fit) });
         }
-        let (sources, count) = (self.records.sizes(), modes(self.records));
+        let mut best: Option<(FittedRecords, usize)> = None;
+        for (fit, sizes) in self.by_sizes(fit) {
+            self.told_with(&fit, &sizes, &mut best)?;
+            if best.as_ref().is_some_and(|(told, _)| is_plainest(told, &fit)) {
+                break;
+            }
+        }
+        Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
+    }
+
+    /// `fit` with the sizes of known sources that moved; where the damping of modes is free beside those of laws of the whole structure,
+    /// which say much the same, once with these alone and once with that alone. Each with the sizes that are free.
+    fn by_sizes(&self, fit: &FittedRecords) -> Vec<(FittedRecords, Vec<bool>)> {
         let first = parameters(fit);
         let wide = scale(fit).sqrt();
-        let sizes: Vec<f64> = fit.known.iter().chain(&fit.damping).copied().collect();
         let moved = |j: usize| {
             let deviation = fit.deviations.get(first + 1 + j).copied().unwrap_or(f64::INFINITY) * wide;
-            sizes[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
+            fit.known[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
         };
-        let known: Vec<bool> = (0..sources).map(moved).collect();
+        let damped = self.records.damped();
+        let is_whole = |j: &usize| damped > 0 && self.records.known[*j].place == Place::Whole(None);
+        let version = |by_damping: bool| {
+            let mut own = fit.clone();
+            let free = |j: usize| if is_whole(&j) { !by_damping } else { moved(j) };
+            let mut sizes: Vec<bool> = (0..fit.known.len()).map(free).collect();
+            if by_damping {
+                let stated = self.records.modal_damping(&vec![0.0; fit.known.len()]);
+                let sized = self.records.modal_damping(&fit.known);
+                own.damping.iter_mut().zip(sized.iter().zip(&stated)).for_each(|(v, (a, b))| *v += (a / b).ln());
+            } else {
+                own.damping.fill(0.0);
+            }
+            own.known.iter_mut().zip(&sizes).filter(|(_, free)| !**free).for_each(|(v, _)| *v = 0.0);
+            sizes.resize(fit.known.len() + damped, by_damping);
+            (own, sizes)
+        };
+        if damped > 0 { vec![version(false), version(true)] } else { vec![version(false)] }
+    }
+
+    /// Puts the plainest fit with the corrections that can be told in place of `best`, where it is plainer. `fit` has its sizes as they
+    /// are told, of which `sizes` are free.
+    fn told_with(
+        &self,
+        fit: &FittedRecords,
+        sizes: &[bool],
+        best: &mut Option<(FittedRecords, usize)>,
+    ) -> Result<(), RecordError> {
+        let count = modes(self.records);
         let mask = |[stiffness, modes, mass]: [bool; 3]| {
-            let sizes = known.iter().copied().chain(vec![modes; count]);
+            let sizes = sizes.iter().copied().chain(vec![modes; count]);
             let parts = vec![false; self.records.parts.len()];
             std::iter::once(stiffness).chain(sizes).chain([mass]).chain(parts).collect::<Vec<bool>>()
         };
@@ -64,8 +103,6 @@ impl Search<'_> {
             let (mask, by_mode) = (mask(what), what[1]);
             let mut start = fit.clone();
             start.stiffness = stiffness;
-            let sizes = start.known.iter_mut().chain(&mut start.damping);
-            sizes.zip(&known).filter(|(_, moved)| !**moved).for_each(|(v, _)| *v = 0.0);
             let held = if what[2] { fit.stiffness } else { all };
             let by_parts = by_parts.iter().map(|v| v + held);
             start.modes.iter_mut().zip(by_parts).for_each(|(v, more)| *v = if by_mode { *v + more } else { 0.0 });
@@ -74,25 +111,24 @@ impl Search<'_> {
             start.shifts.fill(0.0);
             let mut next = self.fitted_anew(&start, mask.clone())?;
             let mut found = vec![(next.clone(), number(&mask))];
-            if by_mode {
-                let free = self.kept_modes(&mut next, mask, sources);
+            let free = self.kept(&mut next, mask.clone());
+            if by_mode || free != mask {
                 found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
             }
             found.iter_mut().for_each(|(told, _)| keep_deviations(told, fit));
             Ok(found)
         };
-        let mut best: Option<(FittedRecords, usize)> = None;
         for k in 0..variants.len() {
             for (next, count) in variant(k)? {
                 if best.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
-                    best = Some((next, count));
+                    *best = Some((next, count));
                 }
             }
             if best.as_ref().is_some_and(|(told, _)| is_plainest(told, fit)) {
                 break;
             }
         }
-        Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
+        Ok(())
     }
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
@@ -106,15 +142,17 @@ impl Search<'_> {
         }
     }
 
-    /// Modes that moved; the others are put back.
-    fn kept_modes(&self, fit: &mut FittedRecords, mut free: Vec<bool>, sources: usize) -> Vec<bool> {
-        let first = parameters(fit) + 1 + sources;
-        let wide = scale(fit).sqrt();
-        for r in 0..modes(self.records) {
-            let deviation = fit.deviations.get(first + r).copied().unwrap_or(f64::INFINITY) * wide;
-            if fit.modes[r].abs() <= (MOVED[1] * deviation).max(LEAST[1]) {
-                fit.modes[r] = 0.0;
-                free[1 + sources + r] = false;
+    /// What of `free` moved among the damping of modes and their stiffness; the rest is put back.
+    fn kept(&self, fit: &mut FittedRecords, mut free: Vec<bool>) -> Vec<bool> {
+        let (first, wide) = (parameters(fit), scale(fit).sqrt());
+        let (known, damped) = (self.records.known.len(), self.records.damped());
+        let values = fit.damping.iter_mut().chain(fit.modes.iter_mut().take(modes(self.records)));
+        for (k, value) in values.enumerate() {
+            let kind = usize::from(k >= damped);
+            let at = 1 + known + k;
+            let deviation = fit.deviations.get(first + at).copied().unwrap_or(f64::INFINITY) * wide;
+            if free[at] && value.abs() <= (MOVED[kind] * deviation).max(LEAST[kind]) {
+                (*value, free[at]) = (0.0, false);
             }
         }
         free

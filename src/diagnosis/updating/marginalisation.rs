@@ -8,7 +8,8 @@
 //! so that a fit has the parameters of its effects alone, and their deviations contain what is not known of the model
 //! (variable projection, Golub and Pereyra 1973; restricted maximum likelihood, Harville 1977).
 
-use super::parameters::{Scales, Updating};
+use super::parameters::Updating;
+use super::scales::Scales;
 use dashpot_numerics::{Cholesky, dot, thin_qr, transposed_product};
 use faer::Mat;
 

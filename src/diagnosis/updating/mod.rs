@@ -11,5 +11,6 @@ pub(crate) mod noise_model;
 pub mod parameters;
 pub(crate) mod part_error;
 pub(crate) mod parts;
+pub mod scales;
 pub mod scatter;
 pub(crate) mod shape_errors;

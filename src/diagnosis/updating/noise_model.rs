@@ -11,7 +11,8 @@
 
 use super::marginalisation::Marginalisation;
 use super::modal_expansion::ModalExpansion;
-use super::parameters::{Scales, Updating, UpdatingParameter};
+use super::parameters::{Updating, UpdatingParameter};
+use super::scales::Scales;
 use crate::diagnosis::residual::data::{ChannelData, RunData};
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
 use crate::diagnosis::residual::whitening::Whitening;

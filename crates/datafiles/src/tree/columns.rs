@@ -1,9 +1,9 @@
 //! Channels out of an array: their names, units and abscissae by what the array, its group and the lists beside it say.
 
 use super::abscissa::Abscissa;
+use super::context::{Context, note};
 use super::labels::Labels;
 use super::names;
-use super::sets::{Context, note};
 use super::source::Place;
 use super::{Array, Cut, Entry};
 use crate::axis::kind_of;

@@ -2,6 +2,7 @@
 
 mod abscissa;
 mod columns;
+mod context;
 mod headers;
 mod labels;
 mod names;

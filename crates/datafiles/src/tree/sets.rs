@@ -6,9 +6,10 @@
 
 use super::abscissa::Abscissa;
 use super::columns::{self, Columns, first, number};
+use super::context::{Context, note};
 use super::headers::with_headers;
 use super::labels::Labels;
-use super::names::{self, Sampling};
+use super::names;
 use super::own_times::OwnTimes;
 use super::repeated::Repeated;
 use super::source::Place;
@@ -16,20 +17,11 @@ use super::timeseries::name_data;
 use super::{Array, Arrays, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of};
 use crate::contents::{Axis, Channel, FIRST, Kind, Set};
-use crate::error::{Read, one_line};
+use crate::error::Read;
 use crate::units::is_unit;
 
-/// Most notes that are kept of a group.
-const MOST_NOTES: usize = 40;
 /// Deepest groups that are looked into.
 const DEEPEST: usize = 64;
-
-/// What a group hands to those below it.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Context {
-    pub step: Option<f64>,
-    pub start: f64,
-}
 
 /// Sets of a tree, and where their channels are.
 pub(crate) fn sets(
@@ -306,29 +298,6 @@ fn is_of(axis: &Abscissa, entries: &[Entry]) -> bool {
     entries.iter().any(|entry| matches!(&entry.node, Node::Array(array) if array.shape.extents.contains(&axis.count)))
 }
 
-impl Context {
-    /// With what the scalars and attributes of a group say.
-    fn within(mut self, entries: &[Entry], attributes: &[(String, String)]) -> Self {
-        let scalars = entries.iter().filter_map(|entry| match &entry.node {
-            Node::Array(array) => Some((entry.name.as_str(), array.scalar()?)),
-            _ => None,
-        });
-        let words = attributes.iter().filter_map(|(name, value)| Some((name.as_str(), value.parse().ok()?)));
-        for (name, value) in words.chain(scalars) {
-            self.take(names::sampling(name, value));
-        }
-        self
-    }
-
-    pub(super) fn take(&mut self, sampling: Option<Sampling>) {
-        match sampling {
-            Some(Sampling::Step(step)) => self.step = Some(step),
-            Some(Sampling::Start(start)) => self.start = start,
-            None => {}
-        }
-    }
-}
-
 /// Kind, unit of the abscissa and what the group says of all its channels.
 fn finish(set: &mut Set, entries: &[Entry], attributes: &[(String, String)], axis: Option<&Abscissa>) {
     if let [channel] = &mut set.channels[..] {
@@ -357,11 +326,5 @@ fn kind(set: &Set, axis: Option<&Abscissa>) -> Kind {
         Some(kind) => kind,
         None if set.channels.iter().any(|channel| channel.axis != Axis::None) => Kind::Time,
         None => Kind::Table,
-    }
-}
-
-pub(super) fn note(set: &mut Set, text: String) {
-    if set.notes.len() < MOST_NOTES {
-        set.notes.push(one_line(&text, 160));
     }
 }
