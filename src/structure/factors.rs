@@ -205,10 +205,8 @@ impl Structure {
         }
         all.retain(|(_, factor)| *factor != 1.0);
         self.origin.damping_of_modes.clear();
-        if all.is_empty() {
-            return;
-        }
-        let (Ok(modes), Some(matrices)) = (self.modes(), &self.matrices) else { return };
+        let (false, Some(matrices)) = (all.is_empty(), &self.matrices) else { return };
+        let Ok(modes) = self.modes() else { return };
         let of = |(mode, factor): (usize, f64)| DampingOfMode {
             mode,
             factor,

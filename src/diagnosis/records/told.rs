@@ -142,17 +142,16 @@ impl Search<'_> {
         }
     }
 
-    /// What of `free` moved among the damping of modes and their stiffness; the rest is put back.
+    /// What of `free` moved among the sizes of known sources, the damping of modes and their stiffness; the rest is put back.
     fn kept(&self, fit: &mut FittedRecords, mut free: Vec<bool>) -> Vec<bool> {
-        let (first, wide) = (parameters(fit), scale(fit).sqrt());
-        let (known, damped) = (self.records.known.len(), self.records.damped());
-        let values = fit.damping.iter_mut().chain(fit.modes.iter_mut().take(modes(self.records)));
+        let (first, wide) = (parameters(fit) + 1, scale(fit).sqrt());
+        let modes = fit.modes.iter_mut().take(modes(self.records));
+        let values = fit.known.iter_mut().chain(&mut fit.damping).chain(modes);
         for (k, value) in values.enumerate() {
-            let kind = usize::from(k >= damped);
-            let at = 1 + known + k;
-            let deviation = fit.deviations.get(first + at).copied().unwrap_or(f64::INFINITY) * wide;
-            if free[at] && value.abs() <= (MOVED[kind] * deviation).max(LEAST[kind]) {
-                (*value, free[at]) = (0.0, false);
+            let kind = usize::from(k >= self.records.sizes());
+            let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::INFINITY) * wide;
+            if free[1 + k] && value.abs() <= (MOVED[kind] * deviation).max(LEAST[kind]) {
+                (*value, free[1 + k]) = (0.0, false);
             }
         }
         free
