@@ -7,7 +7,7 @@
 //!
 //! `m` is the mass that moves with the force cell (0 unless the project gives it), `F_0` the zero of the force cell, one a
 //! record. Laws with memory start from rest where the record starts ([`crate::balance::loops`]). Every law, and every sum of two, is scaled to
-//! the force on a grid of its shapes, the best are fitted, and what predicts loops that were left out wins (`search`).
+//! the force on a grid of its shapes, a third law is added where two leave much, the best are fitted, and what predicts loops that were left out wins (`search`).
 
 mod compare;
 mod fit;
