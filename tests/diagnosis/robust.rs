@@ -49,7 +49,7 @@ fn nonsense_gets_a_finite_answer() {
 }
 
 #[test]
-#[ignore = "minutes in the development profile: cargo test --release --test explain -- --ignored"]
+#[ignore = "minutes in the development profile: cargo test --release --test diagnosis -- --ignored"]
 fn much_nonsense_gets_finite_answers() {
     let next = AtomicU64::new(0);
     let take = || {

@@ -23,8 +23,8 @@ fn run(words: &[&str], paths: &[&Path]) -> String {
     answer(words.chain(paths.iter().map(|path| (*path).into()))).unwrap()
 }
 
-/// Simulates a level into `folder`; gives back its runs as a project names them.
-fn level(folder: &Path, level: usize) -> String {
+/// Simulates a level at frequencies (Hz) into `folder`; gives back its runs as a project names them.
+fn level(folder: &Path, level: usize, frequencies: &[f64]) -> String {
     let (shift, force) = LEVELS[level];
     let joint = format!(
         "[[source]]\nlaw = \"iwan\"\ndofs = [1]\nstate = \"known\"\nstiffness = 28000.0\nforce = 3.0\nchi = -0.4\nbeta = 0.1\n\
@@ -32,7 +32,7 @@ fn level(folder: &Path, level: usize) -> String {
     );
     let of = |more: &str| {
         let run = |(i, f): (usize, &f64)| format!("[[run]]\nfile = \"l{level}-{i}.csv\"\nfrequency = {f:?}\n{more}");
-        FREQUENCIES.iter().enumerate().map(run).collect::<String>()
+        frequencies.iter().enumerate().map(run).collect::<String>()
     };
     let simulate = "[simulate]\nchannels = [\"force@1 [N]\", \"acc@1 [m/s^2]\"]\n";
     let runs = of(&format!("force_dof = 1\nforce_n = {force:?}\n"));
@@ -43,10 +43,10 @@ fn level(folder: &Path, level: usize) -> String {
     of(&format!("level = {}\n", level + 1))
 }
 
-#[test]
-fn a_joint_that_slips_and_stiffens_is_told_as_both() {
+/// The project of levels and frequencies is told both laws, and the cubic stiffness within a share.
+fn are_both_told(levels: &[usize], frequencies: &[f64], within: f64) {
     let folder = tempfile::tempdir().unwrap();
-    let runs: String = (0..LEVELS.len()).map(|k| level(folder.path(), k)).collect();
+    let runs: String = levels.iter().map(|&k| level(folder.path(), k, frequencies)).collect();
     let project = folder.path().join("project.toml");
     std::fs::write(&project, oscillator(1.02 * STIFFNESS) + &runs).unwrap();
     let said: Value = serde_json::from_str(&run(&["diagnose", "--json"], &[&project])).unwrap();
@@ -56,5 +56,17 @@ fn a_joint_that_slips_and_stiffens_is_told_as_both() {
     assert!(first[0]["error_after"].as_f64().unwrap() < 0.15, "{}", first[0]);
     let cubic = first.iter().find(|s| s["effect"] == "cubic_stiffness").unwrap();
     let value = cubic["parameters"]["stiffness"].as_f64().unwrap();
-    assert!((value / CUBIC - 1.0).abs() < 0.05, "{value}");
+    assert!((value / CUBIC - 1.0).abs() < within, "{value}");
+}
+
+#[test]
+fn a_joint_that_slips_and_stiffens_is_told_as_both() {
+    // Fewer runs leave the stiffness less certain.
+    are_both_told(&[0, 2, 3], &[FREQUENCIES[0], FREQUENCIES[2], FREQUENCIES[4]], 0.08);
+}
+
+#[test]
+#[ignore = "half a minute without optimisation: all levels and frequencies; the test above has nine runs"]
+fn a_joint_is_told_as_both_from_all_its_runs() {
+    are_both_told(&[0, 1, 2, 3], &FREQUENCIES, 0.05);
 }

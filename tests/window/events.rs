@@ -179,19 +179,17 @@ fn storm(stage: Stage, count: usize) {
     assert_eq!(document.project.sources, start.1, "{stage:?}");
 }
 
-#[test]
-fn random_events_leave_every_stage_standing() {
-    for stage in Stage::ALL {
-        storm(stage, FEW);
-    }
-}
-
-/// One test a stage, so that they run side by side.
+/// Two tests a stage, so that they run side by side: few events, and the full number.
 macro_rules! storms {
-    ($($name:ident: $stage:ident),*) => {
+    ($($few:ident, $many:ident: $stage:ident),*) => {
         $(#[test]
+        fn $few() {
+            storm(Stage::$stage, FEW);
+        }
+
+        #[test]
         #[ignore = "minutes: the full number of events"]
-        fn $name() {
+        fn $many() {
             let count = std::env::var("DASHPOT_EVENTS").ok().and_then(|n| n.parse().ok());
             storm(Stage::$stage, count.unwrap_or(MANY));
         })*
@@ -199,10 +197,10 @@ macro_rules! storms {
 }
 
 storms!(
-    very_many_events_at_measure: Measure,
-    very_many_events_at_structure: Structure,
-    very_many_events_at_pattern: Pattern,
-    very_many_events_at_select: Select,
-    very_many_events_at_result: Result,
-    very_many_events_at_explain: Explain
+    events_at_measure, very_many_events_at_measure: Measure,
+    events_at_structure, very_many_events_at_structure: Structure,
+    events_at_pattern, very_many_events_at_pattern: Pattern,
+    events_at_select, very_many_events_at_select: Select,
+    events_at_result, very_many_events_at_result: Result,
+    events_at_explain, very_many_events_at_explain: Explain
 );
