@@ -230,7 +230,7 @@ impl Plotter<'_> {
         let rows = occupied(matrix);
         ensure!(!rows.is_empty(), "the damping matrix is empty");
         let labels: Vec<String> = self.p.structure.dofs().iter().map(|d| d.label.clone()).collect();
-        let map = HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m", scale: None };
+        let map = HeatMap { matrix, rows: &rows, columns: &rows, labels: &labels, unit: "N s/m", scale: None };
         Ok(Drawn { drawing: map.paper(title, self.palette), table: map.table() })
     }
 

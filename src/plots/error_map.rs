@@ -7,6 +7,7 @@ use crate::diagnosis::Comparison;
 use crate::display::format;
 use ecolor::Color32;
 use emath::{Align2, Rect, pos2, vec2};
+use std::ops::Range;
 
 /// Name of the only row where there is no response to predict.
 pub const ENERGY: &str = "energy";
@@ -84,6 +85,19 @@ impl Grid {
             used: order.iter().map(|&k| runs[k].used).collect(),
             channels: rows.iter().map(|&k| channels[k].clone()).collect(),
             cells,
+        }
+    }
+}
+
+impl Grid {
+    /// Those columns and rows alone.
+    #[must_use]
+    pub fn part(&self, [columns, rows]: [Range<usize>; 2]) -> Self {
+        Self {
+            runs: self.runs[columns.clone()].to_vec(),
+            used: self.used[columns.clone()].to_vec(),
+            channels: self.channels[rows.clone()].to_vec(),
+            cells: self.cells[rows].iter().map(|row| row[columns.clone()].to_vec()).collect(),
         }
     }
 }
@@ -251,6 +265,12 @@ mod tests {
         assert_eq!(grid.used, [true, true, false]);
         assert_eq!(grid.channels, ["acc@2", "acc@1"]);
         assert_eq!(grid.cells[0][0], Some(Cell { error: 0.3, noise_floor: 0.01 }));
+        let part = grid.part([1..3, 0..1]);
+        assert_eq!((part.runs.as_slice(), part.channels.as_slice()), (&[0, 1][..], &["acc@2".to_owned()][..]));
+        assert_eq!(
+            part.cells,
+            [[Some(Cell { error: 0.1, noise_floor: 0.01 }), Some(Cell { error: 0.9, noise_floor: 0.01 })]]
+        );
         let plain = Grid::new(&comparison(), false);
         assert_eq!((plain.runs, plain.channels[0].as_str()), (vec![0, 1, 2], "acc@1"));
     }

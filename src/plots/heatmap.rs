@@ -14,6 +14,8 @@ pub struct HeatMap<'a> {
     pub matrix: &'a Mat<f64>,
     /// Rows shown.
     pub rows: &'a [usize],
+    /// Columns shown.
+    pub columns: &'a [usize],
     /// Label of every row of the matrix.
     pub labels: &'a [String],
     /// Unit of the values.
@@ -42,11 +44,18 @@ pub struct Cells {
     cell: f32,
 }
 
+impl Cells {
+    /// Their area, so many across and so many down.
+    pub fn area(&self, across: usize, down: usize) -> Rect {
+        Rect::from_min_size(self.origin, self.cell * vec2(across as f32, down as f32))
+    }
+}
+
 impl HeatMap<'_> {
     /// It with its title, for a file.
     pub fn paper(&self, title: &str, palette: &Palette) -> Drawing {
         let room = Rect::from_min_max(pos2(16.0, 48.0), pos2(704.0, 644.0));
-        let used = LABEL + self.rows.len() as f32 * self.cell(room) + 16.0;
+        let used = LABEL + (self.rows.len() as f32 * self.cell(room)).max(LEAST_SCALE) + 16.0;
         let mut drawing = Drawing::new(vec2(720.0, room.top() + used), palette.canvas, title);
         drawing.words(pos2(16.0, 20.0), Align2::LEFT_CENTER, title, size::HEADING, palette.ink);
         self.draw(&mut drawing, room, palette);
@@ -56,13 +65,14 @@ impl HeatMap<'_> {
     /// Row and column of the matrix under a point.
     pub fn at(&self, cells: Cells, at: Pos2) -> Option<[usize; 2]> {
         let at = ((at - cells.origin) / cells.cell).floor();
-        let row = |v: f32| (v >= 0.0).then_some(v as usize).and_then(|k| self.rows.get(k).copied());
-        Some([row(at.y)?, row(at.x)?])
+        let among = |list: &[usize], v: f32| (v >= 0.0).then_some(v as usize).and_then(|k| list.get(k).copied());
+        Some([among(self.rows, at.y)?, among(self.columns, at.x)?])
     }
 
     /// Characters of the longest label.
     fn longest(&self) -> f32 {
-        self.rows.iter().map(|&i| self.labels[i].chars().count()).max().unwrap_or(1) as f32
+        let shown = self.rows.iter().chain(self.columns);
+        shown.map(|&i| self.labels[i].chars().count()).max().unwrap_or(1) as f32
     }
 
     /// Room for the labels at the left.
@@ -72,27 +82,24 @@ impl HeatMap<'_> {
 
     /// Side of a cell that fits into `room`.
     fn cell(&self, room: Rect) -> f32 {
-        let n = self.rows.len().max(1) as f32;
-        ((room.width() - self.left() - SCALE) / n).min((room.height() - LABEL - 10.0) / n).clamp(2.0, 92.0)
+        let [across, down] = [self.columns, self.rows].map(|list| list.len().max(1) as f32);
+        ((room.width() - self.left() - SCALE) / across).min((room.height() - LABEL - 10.0) / down).clamp(2.0, 92.0)
     }
 
     /// Draws it into `room`; gives back where its cells stand.
     pub fn draw(&self, drawing: &mut Drawing, room: Rect, palette: &Palette) -> Cells {
-        let n = self.rows.len() as f32;
         let cell = self.cell(room);
         let cells = Cells { origin: room.min + vec2(self.left(), LABEL), cell };
-        let ground = Rect::from_min_size(cells.origin, Vec2::splat(n * cell));
+        let ground = cells.area(self.columns.len(), self.rows.len());
         if cell < 8.0 {
             drawing.rect(ground, palette.raised, Stroke::NONE);
         }
         let largest = self.largest();
         let type_size = size::SMALL.min(0.30 * cell + 2.0);
         let every = ((LETTER * self.longest() + 5.0).max(13.0) / cell).ceil().max(1.0) as usize;
+        self.labels(drawing, cells, every, palette);
         for (r, &i) in self.rows.iter().enumerate() {
-            if r % every == 0 {
-                self.labels(drawing, cells, r, palette);
-            }
-            for (c, &j) in self.rows.iter().enumerate() {
+            for (c, &j) in self.columns.iter().enumerate() {
                 let value = self.matrix[(i, j)];
                 if value == 0.0 && cell < 8.0 {
                     continue; // the ground shows through
@@ -116,20 +123,25 @@ impl HeatMap<'_> {
         cells
     }
 
-    fn labels(&self, drawing: &mut Drawing, cells: Cells, r: usize, palette: &Palette) {
-        let middle = (r as f32 + 0.5) * cells.cell;
-        let label = &self.labels[self.rows[r]];
-        let at = cells.origin + vec2(middle, -8.0);
-        drawing.words(at, Align2::CENTER_BOTTOM, label.clone(), size::SMALL, palette.weak);
-        let at = cells.origin + vec2(-8.0, middle);
-        drawing.words(at, Align2::RIGHT_CENTER, label.clone(), size::SMALL, palette.weak);
+    /// Labels of columns above and of rows at the left, one in `every`.
+    fn labels(&self, drawing: &mut Drawing, cells: Cells, every: usize, palette: &Palette) {
+        let middle = |k: usize| (k as f32 + 0.5) * cells.cell;
+        let mut write = |at: Pos2, align: Align2, label: usize| {
+            drawing.words(at, align, self.labels[label].clone(), size::SMALL, palette.weak);
+        };
+        for (c, &j) in self.columns.iter().enumerate().step_by(every) {
+            write(cells.origin + vec2(middle(c), -8.0), Align2::CENTER_BOTTOM, j);
+        }
+        for (r, &i) in self.rows.iter().enumerate().step_by(every) {
+            write(cells.origin + vec2(-8.0, middle(r)), Align2::RIGHT_CENTER, i);
+        }
     }
 
     /// The scale of colours at the right, as high as the cells; only the half that occurs.
     fn scale(&self, drawing: &mut Drawing, cells: Rect, palette: &Palette) {
         const STEPS: usize = 40;
         let largest = self.largest();
-        let negative = self.rows.iter().any(|&i| self.rows.iter().any(|&j| self.matrix[(i, j)] < 0.0));
+        let negative = self.rows.iter().any(|&i| self.columns.iter().any(|&j| self.matrix[(i, j)] < 0.0));
         let low = if negative { -1.0 } else { 0.0 };
         let height = cells.height().clamp(LEAST_SCALE, 220.0);
         let bar = Rect::from_min_size(cells.right_top() + vec2(14.0, 24.0), vec2(10.0, height - 24.0));
@@ -157,21 +169,21 @@ impl HeatMap<'_> {
     }
 
     /// Magnitude of the strongest colour.
-    fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         if let Some(scale) = self.scale.filter(|s| *s > 0.0) {
             return scale;
         }
-        let all = self.rows.iter().flat_map(|&i| self.rows.iter().map(move |&j| self.matrix[(i, j)].abs()));
+        let all = self.rows.iter().flat_map(|&i| self.columns.iter().map(move |&j| self.matrix[(i, j)].abs()));
         all.fold(f64::MIN_POSITIVE, f64::max)
     }
 
     /// The shown rows with their labels as a table with tabs.
     pub fn table(&self) -> String {
         let mut text = self.unit.to_owned();
-        self.rows.iter().for_each(|&j| text += &format!("\t{}", self.labels[j]));
+        self.columns.iter().for_each(|&j| text += &format!("\t{}", self.labels[j]));
         for &i in self.rows {
             text += &format!("\n{}", self.labels[i]);
-            self.rows.iter().for_each(|&j| text += &format!("\t{:e}", self.matrix[(i, j)]));
+            self.columns.iter().for_each(|&j| text += &format!("\t{:e}", self.matrix[(i, j)]));
         }
         text + "\n"
     }
@@ -180,7 +192,7 @@ impl HeatMap<'_> {
     pub fn words(&self) -> String {
         let mut text = String::from("Matrix");
         for &i in self.rows {
-            for &j in self.rows {
+            for &j in self.columns {
                 if self.matrix[(i, j)] != 0.0 && text.len() < 4000 {
                     text.push_str(&format!(
                         "; {} {} {}",
@@ -213,11 +225,15 @@ mod tests {
     fn cells_are_found_and_tabled() {
         let m = Mat::from_fn(3, 3, |i, j| (10 * i + j) as f64);
         let labels = ["a", "b", "c"].map(str::to_owned);
-        let map = HeatMap { matrix: &m, rows: &[0, 2], labels: &labels, unit: "N s/m", scale: None };
+        let map = HeatMap { matrix: &m, rows: &[0, 2], columns: &[0, 2], labels: &labels, unit: "N s/m", scale: None };
         let cells = Cells { origin: pos2(30.0, 30.0), cell: 20.0 };
         assert_eq!(map.at(cells, pos2(51.0, 35.0)), Some([0, 2]));
         assert_eq!(map.at(cells, pos2(29.0, 35.0)), None);
         assert_eq!(map.at(cells, pos2(71.0, 35.0)), None);
         assert_eq!(map.table(), "N s/m\ta\tc\na\t0e0\t2e0\nc\t2e1\t2.2e1\n");
+        // A part of it has columns of its own.
+        let part = HeatMap { rows: &[2], columns: &[0, 1, 2], ..map };
+        assert_eq!(part.at(cells, pos2(75.0, 35.0)), Some([2, 2]));
+        assert_eq!(part.table(), "N s/m\ta\tb\tc\nc\t2e1\t2.1e1\t2.2e1\n");
     }
 }

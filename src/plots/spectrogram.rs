@@ -9,6 +9,7 @@ use super::style::{self, Palette, size};
 use super::ticks::rules;
 use crate::math::spectrum::Spectrum;
 use emath::{Align2, Pos2, Rect, Vec2, pos2, vec2};
+use std::ops::Range;
 
 /// Windows of time, and rows of frequency that are drawn at most.
 const COLUMNS: usize = 56;
@@ -31,8 +32,8 @@ const REMARK: &str = "dB below the largest amplitude that was measured";
 pub struct Spectrogram {
     /// Beginning of the first window and end of the last, s.
     pub time_s: [f64; 2],
-    /// Highest frequency that is shown, Hz.
-    pub highest_hz: f64,
+    /// Least and highest frequency that are shown, Hz.
+    pub range_hz: [f64; 2],
     /// Amplitudes over the largest of the signal that is compared with, dB: `[window][row]`, rows from zero up.
     pub decibels: Vec<Vec<f64>>,
 }
@@ -65,7 +66,26 @@ impl Spectrogram {
         };
         let decibels: Vec<Vec<f64>> = own.iter().map(|s| (0..rows).map(|r| row(s, r)).collect()).collect();
         let end = start + step * (length / 2 * (decibels.len() - 1) + length) as f64;
-        Some(Self { time_s: [start, end], highest_hz: own.first()?.frequency_hz(count), decibels })
+        Some(Self { time_s: [start, end], range_hz: [0.0, own.first()?.frequency_hz(count)], decibels })
+    }
+
+    /// Windows of time and rows of frequency.
+    pub fn count(&self) -> [usize; 2] {
+        [self.decibels.len(), self.decibels.first().map_or(0, Vec::len)]
+    }
+
+    /// Those windows and rows alone.
+    #[must_use]
+    pub fn part(&self, [windows, rows]: [Range<usize>; 2]) -> Self {
+        let [across, up] = self.count();
+        let ends = |[from, to]: [f64; 2], cells: &Range<usize>, count: usize| {
+            [cells.start, cells.end].map(|k| from + (to - from) * k as f64 / count.max(1) as f64)
+        };
+        Self {
+            time_s: ends(self.time_s, &windows, across),
+            range_hz: ends(self.range_hz, &rows, up),
+            decibels: self.decibels[windows].iter().map(|list| list[rows.clone()].to_vec()).collect(),
+        }
     }
 
     /// Drawn on paper under its title, with its axes and the scale of its colours.
@@ -104,8 +124,8 @@ impl Spectrogram {
         let list =
             plot.contains(point).then(|| self.decibels.get((share.x * self.decibels.len() as f32) as usize))??;
         let level = list.get(((1.0 - share.y) * list.len() as f32) as usize)?;
-        let [from, to] = self.time_s;
-        Some([from + f64::from(share.x) * (to - from), f64::from(1.0 - share.y) * self.highest_hz, *level])
+        let along = |[from, to]: [f64; 2], share: f32| from + f64::from(share) * (to - from);
+        Some([along(self.time_s, share.x), along(self.range_hz, 1.0 - share.y), *level])
     }
 
     fn axes(&self, drawing: &mut Drawing, plot: Rect, palette: &Palette) {
@@ -119,9 +139,9 @@ impl Spectrogram {
             tick(pos2(x, plot.bottom()), pos2(x, plot.bottom() + 4.0), Align2::CENTER_TOP, &rule.label);
         }
         let frequency = Axis::new("Frequency", "Hz").displayed();
-        let highest = frequency.factor * self.highest_hz;
-        for rule in rules(&frequency, [0.0, highest], plot.height()) {
-            let y = plot.bottom() - plot.height() * (rule.at / highest) as f32;
+        let range = self.range_hz.map(|hz| frequency.factor * hz);
+        for rule in rules(&frequency, range, plot.height()) {
+            let y = plot.bottom() - plot.height() * ((rule.at - range[0]) / (range[1] - range[0])) as f32;
             tick(pos2(plot.left(), y), pos2(plot.left() - 4.0, y), Align2::RIGHT_CENTER, &rule.label);
         }
         let below = pos2(plot.center().x, plot.bottom() + 34.0);
@@ -136,8 +156,9 @@ impl Spectrogram {
         let [from, to] = self.time_s;
         let half = (to - from) / (self.decibels.len() + 1) as f64;
         let mut text = "time (s)".to_owned();
-        (0..rows as usize)
-            .for_each(|r| text += &format!("\t{:.4e} Hz (dB)", (r as f64 + 0.5) * self.highest_hz / rows));
+        let [low, high] = self.range_hz;
+        let frequency = |r: usize| low + (high - low) * (r as f64 + 0.5) / rows;
+        (0..rows as usize).for_each(|r| text += &format!("\t{:.4e} Hz (dB)", frequency(r)));
         for (n, list) in self.decibels.iter().enumerate() {
             text += &format!("\n{:.6e}", from + half * (n + 1) as f64);
             list.iter().for_each(|x| text += &format!("\t{x:.2}"));
@@ -181,14 +202,19 @@ mod tests {
         let tone: Vec<f64> = (0..8000).map(|n| (TAU * 20.0 * time(n)).sin()).collect();
         let burst = |n: usize| if (5000..6500).contains(&n) { 0.1 * (TAU * 50.0 * time(n)).sin() } else { 0.0 };
         let found = Spectrogram::new(&(0..8000).map(burst).collect::<Vec<f64>>(), &tone, (0.0, step)).unwrap();
-        assert!(found.decibels.len() >= COLUMNS - 2 && found.highest_hz < 120.0, "{}", found.highest_hz);
+        assert!(found.decibels.len() >= COLUMNS - 2 && found.range_hz[1] < 120.0, "{:?}", found.range_hz);
         let rows = found.decibels[0].len();
         let window = (5.75 / 8.0 * found.decibels.len() as f64) as usize;
         let loudest =
             (0..rows).max_by(|&a, &b| found.decibels[window][a].total_cmp(&found.decibels[window][b])).unwrap();
-        let frequency = (loudest as f64 + 0.5) * found.highest_hz / rows as f64;
+        let frequency = (loudest as f64 + 0.5) * found.range_hz[1] / rows as f64;
         assert!((frequency - 50.0).abs() < 4.0, "{frequency}");
         assert!((found.decibels[window][loudest] + 20.0).abs() < 1.0, "{}", found.decibels[window][loudest]);
         assert!(found.decibels[2].iter().all(|d| *d < -100.0));
+        // The cell of the burst alone lies where it lies in the whole.
+        let cell = found.part([window..window + 1, loudest..loudest + 1]);
+        assert!((cell.range_hz[0] + cell.range_hz[1] - 2.0 * frequency).abs() < 1e-9, "{:?}", cell.range_hz);
+        assert!(cell.time_s[0] <= 5.75 && 5.75 <= cell.time_s[1], "{:?}", cell.time_s);
+        assert_eq!(cell.decibels, [[found.decibels[window][loudest]]]);
     }
 }

@@ -64,7 +64,7 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
     let rows = occupied(matrix);
     if !rows.is_empty() {
         let labels: Vec<String> = p.structure.dofs().iter().map(|d| d.label.clone()).collect();
-        let map = HeatMap { matrix, rows: &rows, labels: &labels, unit: "N s/m", scale: None };
+        let map = HeatMap { matrix, rows: &rows, columns: &rows, labels: &labels, unit: "N s/m", scale: None };
         page.drawing(&map.paper(title, Palette::light()), &map.table());
     }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 mod book;
+mod cells;
 mod change;
 mod choose;
 #[path = "../common/mod.rs"]

@@ -14,7 +14,7 @@ use egui_kittest::kittest::Queryable;
 use std::path::Path;
 
 /// A copy of a sample of the program.
-fn sample(name: &str) -> Sample {
+pub(crate) fn sample(name: &str) -> Sample {
     let folder = tempfile::tempdir().unwrap();
     for file in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data").join(name)).unwrap() {
         let file = file.unwrap();

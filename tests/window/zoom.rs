@@ -19,13 +19,13 @@ fn structure() -> (crate::support::Sample, Harness<'static, App>) {
     (sample, harness)
 }
 
-fn press(harness: &mut Harness<'_, App>, key: Key, modifiers: Modifiers) {
+pub(crate) fn press(harness: &mut Harness<'_, App>, key: Key, modifiers: Modifiers) {
     harness.event(Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
     harness.run_steps(3);
 }
 
 /// Drags with the right button: zooms into a box.
-fn zoom(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
+pub(crate) fn zoom(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
     let button = |pos, pressed| Event::PointerButton {
         pos,
         button: PointerButton::Secondary,
@@ -46,7 +46,7 @@ fn zoom(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
 }
 
 /// What the table of the plot under the pointer holds: only what is in sight is copied of a function, all of points.
-fn copied(harness: &mut Harness<'_, App>) -> Option<String> {
+pub(crate) fn copied(harness: &mut Harness<'_, App>) -> Option<String> {
     harness.event(Event::Copy);
     harness.step();
     harness.output().platform_output.commands.iter().find_map(|c| match c {

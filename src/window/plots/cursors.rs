@@ -3,14 +3,22 @@
 
 use crate::display::format::{pretty_unit, significant, with_unit};
 use crate::display::units::{self, Frequency};
-use crate::plots::figure::{Axis, Figure, Look, Scale};
+use crate::plots::figure::{Axis, Figure, Look, Scale, Ticks};
 use crate::window::language::tr;
 use crate::window::theme::{self, Palette};
-use egui::{Align2, Color32, Context, Id, Rect, RichText, Vec2, pos2, vec2};
+use egui::{Align2, Color32, Context, Id, Pos2, Rect, RichText, Vec2, pos2, vec2};
 use egui_plot::{LineStyle, MarkerShape, PlotPoint, PlotUi, Points, VLine};
 
 /// Distance within which a cursor takes the place of a point, points.
 const REACH: f32 = 24.0;
+
+/// What is read of a map of cells at a place: its axis and its value there.
+pub(super) struct Reading<'a> {
+    /// Name and unit.
+    pub axis: Axis,
+    /// The value at x and y; `None` where there is no cell.
+    pub value: &'a dyn Fn([f64; 2]) -> Option<f64>,
+}
 
 /// Cursors of one plot in the terms of its figure: at most two.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -24,12 +32,12 @@ impl Cursors {
         ctx.data(|d| d.get_temp::<Self>(id(plot))).unwrap_or_default()
     }
 
-    fn keep(&self, ctx: &Context, plot: &str) {
+    pub(super) fn keep(&self, ctx: &Context, plot: &str) {
         ctx.data_mut(|d| d.insert_temp(id(plot), self.clone()));
     }
 
     /// One more cursor; a third takes them all away.
-    fn set(&mut self, at: [f64; 2]) {
+    pub(super) fn set(&mut self, at: [f64; 2]) {
         if self.at.len() == 2 {
             self.at.clear();
         } else {
@@ -37,13 +45,30 @@ impl Cursors {
         }
     }
 
+    /// Where they stand.
+    pub(super) fn places(&self) -> &[[f64; 2]] {
+        &self.at
+    }
+
     /// What is read at the cursors, line by line: each, and their difference.
-    pub(crate) fn words(&self, figure: &Figure) -> Vec<String> {
-        let one =
-            |k: usize| format!("{}:  {}   {}", k + 1, said(&figure.x, self.at[k][0]), said(&figure.y, self.at[k][1]));
+    pub(super) fn words(&self, figure: &Figure, reading: Option<&Reading<'_>>) -> Vec<String> {
+        let read = |at: [f64; 2]| reading.and_then(|r| Some((&r.axis, (r.value)(at)?)));
+        let line = |mark: &str, parts: Vec<String>| format!("{mark}:  {}", parts.join("   "));
+        let one = |k: usize| {
+            let at = self.at[k];
+            let mut parts = vec![said(&figure.x, at[0]), said(&figure.y, at[1])];
+            parts.extend(read(at).map(|(axis, value)| said(axis, value)));
+            line(&(k + 1).to_string(), parts)
+        };
         let mut lines: Vec<String> = (0..self.at.len()).map(one).collect();
         if let [a, b] = self.at[..] {
-            lines.push(format!("Δ:  {}   {}", said(&figure.x, b[0] - a[0]), between(&figure.y, a[1], b[1])));
+            let axes = [(&figure.x, a[0], b[0]), (&figure.y, a[1], b[1])];
+            let measured = axes.into_iter().filter(|(axis, ..)| !matches!(axis.ticks, Ticks::Names(_)));
+            let mut parts: Vec<String> = measured.map(|(axis, a, b)| between(axis, a, b)).collect();
+            parts.extend(read(a).zip(read(b)).map(|((axis, a), (_, b))| between(axis, a, b)));
+            if !parts.is_empty() {
+                lines.push(line("Δ", parts));
+            }
             if figure.x.unit == "s" && b[0] != a[0] {
                 let inverse = if units::now().frequency == Frequency::Hertz { "1/Δ" } else { "2π/Δ" };
                 lines.push(format!("{inverse}:  {}", with_unit(1.0 / (b[0] - a[0]).abs(), "Hz")));
@@ -58,6 +83,10 @@ fn id(plot: &str) -> Id {
 }
 
 fn said(axis: &Axis, value: f64) -> String {
+    if let Ticks::Names(names) = &axis.ticks {
+        let name = names.get(value.round().max(0.0) as usize).map_or("", String::as_str);
+        return format!("{} {name}", tr(&axis.name)).trim().to_owned();
+    }
     format!("{} {}", significant(axis.factor * value, 5), pretty_unit(&axis.unit)).trim_end().to_owned()
 }
 
@@ -81,7 +110,7 @@ pub(crate) fn show(plot: &mut PlotUi<'_>, name: &str, figure: &Figure, palette: 
         cursors.set(nearest(plot, figure, at).unwrap_or(free));
         cursors.keep(&ctx, name);
     }
-    for (k, at) in cursors.at.iter().enumerate() {
+    for (k, at) in cursors.places().iter().enumerate() {
         let (Some(x), Some(y)) = (figure.x.place(at[0]), figure.y.place(at[1])) else { continue };
         let line = VLine::new(format!("cursor {}", k + 1), x).color(palette.accent).width(1.0);
         plot.vline(line.style(LineStyle::dashed_loose()).allow_hover(false));
@@ -111,19 +140,18 @@ fn nearest(plot: &PlotUi<'_>, figure: &Figure, at: PlotPoint) -> Option<[f64; 2]
     (best.0 <= REACH).then_some(best.1)
 }
 
-/// Lines of what is read, in the upper left corner of the plot.
-pub(crate) fn paint(painter: &egui::Painter, frame: Rect, lines: &[String], palette: &Palette) {
+/// Lines of what is read, in a box whose upper left corner `corner` gives for its size.
+pub(crate) fn paint(painter: &egui::Painter, lines: &[String], palette: &Palette, corner: &dyn Fn(Vec2) -> Pos2) {
+    if lines.is_empty() {
+        return;
+    }
     let font = theme::font(theme::size::SMALL);
     let galleys: Vec<_> =
         lines.iter().map(|line| painter.layout_no_wrap(tr(line), font.clone(), palette.ink)).collect();
-    let size = galleys.iter().fold(Vec2::ZERO, |s, g| vec2(s.x.max(g.size().x), s.y + g.size().y));
-    if size == Vec2::ZERO {
-        return;
-    }
-    let corner = frame.left_top() + Vec2::splat(6.0);
-    let ground = Rect::from_min_size(corner, size + vec2(12.0, 8.0));
+    let size = galleys.iter().fold(Vec2::ZERO, |s, g| vec2(s.x.max(g.size().x), s.y + g.size().y)) + vec2(12.0, 8.0);
+    let ground = Rect::from_min_size(corner(size), size);
     painter.rect(ground, 4.0, palette.pane, theme::hair(palette.line), egui::StrokeKind::Inside);
-    let mut at = corner + vec2(6.0, 4.0);
+    let mut at = ground.min + vec2(6.0, 4.0);
     for galley in galleys {
         let height = galley.size().y;
         painter.galley(at, galley, Color32::PLACEHOLDER);
@@ -133,8 +161,8 @@ pub(crate) fn paint(painter: &egui::Painter, frame: Rect, lines: &[String], pale
 
 #[cfg(test)]
 mod tests {
-    use super::Cursors;
-    use crate::plots::figure::{Axis, Figure};
+    use super::{Cursors, Reading};
+    use crate::plots::figure::{Axis, Figure, Ticks};
 
     #[test]
     fn two_cursors_read_their_difference_and_a_third_takes_them_away() {
@@ -142,11 +170,25 @@ mod tests {
         let mut cursors = Cursors::default();
         cursors.set([0.1, 1e-3]);
         cursors.set([0.6, 1e-2]);
-        let words = cursors.words(&figure);
+        let words = cursors.words(&figure, None);
         assert_eq!(words[0], "1:  0.10000 s   0.0010000 m/N");
         assert_eq!(words[2], "Δ:  0.50000 s   0.0090000 m/N   20.00 dB");
         assert_eq!(words[3], "1/Δ:  2.000 Hz");
         cursors.set([0.7, 1.0]);
-        assert!(cursors.words(&figure).is_empty());
+        assert!(cursors.words(&figure, None).is_empty());
+    }
+
+    #[test]
+    fn cells_have_names_and_values_and_only_values_differ() {
+        let names = || Ticks::Names(["a", "b", "c"].map(str::to_owned).into());
+        let (x, y) = (Axis::new("Column", "").ticks(names()), Axis::new("", "").ticks(names()));
+        let figure = Figure::new("", x, y);
+        let value = |[x, y]: [f64; 2]| (y < 2.0).then_some(10.0 * y + x);
+        let reading = Reading { axis: Axis::new("", "N s/m"), value: &value };
+        let mut cursors = Cursors::default();
+        cursors.set([0.0, 1.0]);
+        cursors.set([2.0, 0.0]);
+        let words = cursors.words(&figure, Some(&reading));
+        assert_eq!(words, ["1:  Column a   b   10.000 N·s/m", "2:  Column c   a   2.0000 N·s/m", "Δ:  −8.0000 N·s/m"]);
     }
 }

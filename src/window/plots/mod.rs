@@ -1,6 +1,7 @@
 //! Plots: one style for all, and the series of each kind.
 
 pub(crate) mod bars;
+pub(crate) mod cell_map;
 pub(crate) mod charts;
 pub(crate) mod cursors;
 pub mod export;

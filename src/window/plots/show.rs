@@ -10,8 +10,8 @@ use crate::plots::sheet::{Panel, Sheet};
 use crate::plots::{grid, ticks};
 use crate::window::language::{tf, tr};
 use crate::window::theme;
-use crate::window::widgets::UiExt;
-use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
+use crate::window::widgets::{UiExt, width};
+use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, Vec2, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
@@ -25,6 +25,9 @@ const CORNER: f64 = 0.04;
 const LEAST: f32 = 42.0;
 /// Room that the largest marks take at the edge of a plot, points.
 const MARK: f32 = 12.0;
+/// Height of a pane below which keys stand close, and of a key, points.
+const CRAMPED: f32 = 220.0;
+const KEY: f32 = 14.0;
 /// Height of the axis of x with its name, points.
 const RULER: f32 = 36.0;
 
@@ -91,18 +94,31 @@ pub(crate) fn key_row<'a>(ui: &mut Ui, figures: impl Iterator<Item = &'a Figure>
             entries.push(series);
         }
     }
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(theme::space::XS, 1.0);
-        entries.into_iter().for_each(|series| key(ui, series));
+    // Where the plot is low and the keys wrap, their rows stand closer.
+    let (low, room) = (ui.available_height() < CRAMPED, ui.available_width());
+    let total: f32 = entries.iter().map(|series| key_size(ui, series).x + theme::space::XS).sum();
+    ui.scope(|ui| {
+        if low && total > room {
+            ui.spacing_mut().interact_size.y = KEY;
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(theme::space::XS, 1.0);
+            entries.into_iter().for_each(|series| key(ui, series));
+        });
     });
     ui.add_space(theme::space::XS);
+}
+
+/// Room of a mark and its name.
+fn key_size(ui: &Ui, series: &Series) -> Vec2 {
+    vec2(22.0 + width(ui, &series.name, theme::font(theme::size::SMALL)) + theme::space::S, KEY)
 }
 
 /// A mark and a name that stay together where the row wraps.
 fn key(ui: &mut Ui, series: &Series) {
     let palette = ui.palette();
     let text = ui.painter().layout_no_wrap(tr(&series.name), theme::font(theme::size::SMALL), palette.weak);
-    let size = vec2(22.0 + text.size().x + theme::space::S, text.size().y.max(14.0));
+    let size = key_size(ui, series).max(vec2(0.0, text.size().y));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(&series.name)));
     let (left, middle) = (rect.left_center(), rect.left_center() + vec2(8.0, 0.0));
@@ -209,9 +225,10 @@ impl Place<'_> {
             zoom.apply(plot, number);
             figure.series.iter().for_each(|s| series(plot, figure, s));
             figure.labels.iter().for_each(|l| words(plot, figure, l));
-            read = cursors::show(plot, self.id, figure, palette).words(figure);
+            read = cursors::show(plot, self.id, figure, palette).words(figure, None);
         });
-        cursors::paint(&ui.painter_at(*out.transform.frame()), *out.transform.frame(), &read, palette);
+        let frame = *out.transform.frame();
+        cursors::paint(&ui.painter_at(frame), &read, palette, &|_| frame.left_top() + Vec2::splat(6.0));
         out
     }
 }

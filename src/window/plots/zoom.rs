@@ -109,6 +109,14 @@ impl Zoom {
         }
     }
 
+    /// The limits that were asked for of what is drawn as cells; `whole` is everything.
+    pub(super) fn placed(&self, whole: Sight) -> Option<Sight> {
+        match self.wanted.as_ref()? {
+            Want::All => Some(whole),
+            Want::These(sights) => sights.first().copied(),
+        }
+    }
+
     /// After the plots are drawn: takes the steps of the user, his keys, and shows the window of limits.
     pub(crate) fn end(self, ui: &Ui, plots: &[(&Response, &Figure, Sight)]) {
         let ctx = ui.ctx();
@@ -132,8 +140,9 @@ impl Zoom {
         if kept.typing {
             limits(ctx, self.id, &mut kept, plots);
         }
+        let typed = plots.iter().any(|(_, f, _)| !is_named(&f.x) || !is_named(&f.y));
         for (response, ..) in plots {
-            ctx.data_mut(|d| d.insert_temp(response.id.with("its zoom"), self.id));
+            ctx.data_mut(|d| d.insert_temp(response.id.with("its zoom"), (self.id, typed)));
         }
         if kept.want.is_some() || before != (kept.past.len(), kept.future.len(), kept.typing, kept.touched) {
             ctx.request_repaint();
@@ -145,7 +154,7 @@ impl Zoom {
 /// Entries of the menu of a plot.
 pub(crate) fn menu(ui: &mut Ui, plot: &Response) {
     let ctx = ui.ctx().clone();
-    let Some(id) = ctx.data(|d| d.get_temp::<Id>(plot.id.with("its zoom"))) else { return };
+    let Some((id, typed)) = ctx.data(|d| d.get_temp::<(Id, bool)>(plot.id.with("its zoom"))) else { return };
     let mut kept = Kept::of(&ctx, id);
     let mut chosen = false;
     let mut entry = |ui: &mut Ui, can: bool, label: &str, keys: &str| {
@@ -164,7 +173,7 @@ pub(crate) fn menu(ui: &mut Ui, plot: &Response) {
     if entry(ui, true, "Show all", "double click") {
         (kept.want, kept.touched) = (Some(Want::All), true);
     }
-    if entry(ui, true, "Axis limits…", "") {
+    if typed && entry(ui, true, "Axis limits…", "") {
         kept.typing = true;
     }
     if chosen {
@@ -208,9 +217,14 @@ fn limits(ctx: &Context, id: Id, kept: &mut Kept, plots: &[(&Response, &Figure, 
     }
 }
 
+/// Whether names stand along an axis in place of numbers.
+fn is_named(axis: &Axis) -> bool {
+    matches!(axis.ticks, Ticks::Names(_))
+}
+
 /// The limits of an axis; true when one was changed to another that makes sense.
 fn row(ui: &mut Ui, axis: &Axis, range: &mut [f64; 2]) -> bool {
-    if matches!(axis.ticks, Ticks::Names(_)) {
+    if is_named(axis) {
         return false;
     }
     let read = range.map(|place| crate::display::format::rounded(axis.read(place)));

@@ -254,7 +254,14 @@ mod tests {
         (m[(0, 0)], m[(2, 2)], m[(3, 3)]) = (1.0, 2.0, 3.5);
         (m[(0, 2)], m[(2, 0)]) = (-0.8, -0.8);
         let labels = ["3", "5", "7", "9"].map(str::to_owned);
-        Bars::new(&HeatMap { matrix: &m, rows: &[0, 2, 3], labels: &labels, unit: "N s/m", scale: None })
+        Bars::new(&HeatMap {
+            matrix: &m,
+            rows: &[0, 2, 3],
+            columns: &[0, 2, 3],
+            labels: &labels,
+            unit: "N s/m",
+            scale: None,
+        })
     }
 
     #[test]

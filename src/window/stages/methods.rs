@@ -270,7 +270,8 @@ fn matrices(ui: &mut Ui, found: &SideBySide, damping: &Damping, identified: Opti
         ui.hint(name);
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
             let matrix = &(faer::Scale(factor) * matrix);
-            HeatMap { matrix, rows: &rows, labels, unit: &unit, scale: Some(factor * scale) }.show(ui, name);
+            HeatMap { matrix, rows: &rows, columns: &rows, labels, unit: &unit, scale: Some(factor * scale) }
+                .show(ui, name);
         });
     }
     for note in &damping.notes {

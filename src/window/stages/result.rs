@@ -97,7 +97,7 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     }
     let labels: Vec<String> = p.structure.dofs().iter().map(|d| d.label.clone()).collect();
     ui.add_space(space::XS);
-    let map = heatmap::HeatMap { matrix, rows: &rows, labels: &labels, unit: &unit, scale: None };
+    let map = heatmap::HeatMap { matrix, rows: &rows, columns: &rows, labels: &labels, unit: &unit, scale: None };
     if *in_space {
         solid::bars::Bars::new(&map).show(ui, "Damping matrix in space", &map);
     } else {

@@ -4,7 +4,10 @@ use crate::display::format;
 use crate::display::format::in_words;
 use crate::exchange::Project;
 use crate::plots::error_map::{self, Cell, ENERGY, Grid, Scale};
+use crate::plots::figure::{Axis, Figure, Ticks};
 use crate::window::language::{numbers, t, tr};
+use crate::window::plots::cell_map::{CellMap, Field};
+use crate::window::plots::export;
 use crate::window::theme::{self, Palette, size};
 use crate::window::widgets::{UiExt, width};
 use egui::{
@@ -13,6 +16,8 @@ use egui::{
 };
 use std::ops::Range;
 
+/// Its name on the screen and in files.
+const NAME: &str = "Error map";
 /// Most cells that are nodes of their own for screen readers.
 const MANY: usize = 800;
 const HEAD: f32 = 18.0;
@@ -21,6 +26,8 @@ const FOOT: f32 = 3.0;
 /// Room about the number in a cell, and least size of a cell that has one, points.
 const ABOUT: f32 = 5.0;
 const READABLE: Vec2 = vec2(20.0, 13.0);
+/// Least height of a cell, points.
+pub(super) const LEAST: f32 = 12.0;
 /// Pieces of the legend's colours.
 const STEPS: usize = 48;
 
@@ -41,33 +48,58 @@ pub(super) struct Map<'a> {
 impl Map<'_> {
     /// Shows the map no higher than `most`; gives back the cell that was clicked, as run and row.
     pub(super) fn show(&self, ui: &mut Ui, most: f32) -> Option<(usize, String)> {
+        let figure = self.axes();
+        let whole = self.grid;
+        let map = CellMap::begin(ui.ctx(), NAME, &figure, Field::table(whole.runs.len(), whole.channels.len()));
+        if map.is_whole() {
+            return self.in_sight(ui, most, whole, map);
+        }
+        let part = whole.part(map.in_sight());
+        Map { grid: &part, ..*self }.in_sight(ui, most, whole, map)
+    }
+
+    /// Shows what is in sight of the `whole` map.
+    fn in_sight(&self, ui: &mut Ui, most: f32, whole: &Grid, map: CellMap<'_>) -> Option<(usize, String)> {
         let font = theme::font(size::SMALL);
         let width = |name: &String| ui.painter().layout_no_wrap(tr(name), font.clone(), Color32::WHITE).size().x;
         let label = self.grid.channels.iter().map(width).fold(24.0, f32::max) + 10.0;
         let (columns, rows) = (self.grid.runs.len().max(1) as f32, self.grid.channels.len().max(1) as f32);
         let cell = vec2(
             ((ui.available_width() - label - 2.0) / columns).clamp(7.0, 64.0),
-            ((most - HEAD - FOOT) / rows).clamp(12.0, 26.0),
+            ((most - HEAD - FOOT) / rows).clamp(LEAST, 26.0),
         );
         let extent = vec2(label + columns * cell.x, HEAD + rows * cell.y + FOOT);
         let mut clicked = None;
         ScrollArea::both().id_salt("map").max_height(most.max(HEAD + 24.0)).auto_shrink([false, true]).show(ui, |ui| {
-            let (area, response) = ui.allocate_exact_size(extent, Sense::click());
-            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, t!("Error map")));
+            let (area, mut response) = ui.allocate_exact_size(extent, Sense::click_and_drag());
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr(NAME)));
             let sheet = Sheet { origin: area.min + vec2(label, HEAD), cell };
-            let columns = sheet.columns(ui.clip_rect(), self.grid.runs.len());
-            self.head(ui, area, &sheet, columns.clone());
-            self.cells(ui, &sheet, columns, self.numbered(ui, cell));
+            let in_sight = sheet.columns(ui.clip_rect(), self.grid.runs.len());
+            self.head(ui, area, &sheet, in_sight.clone());
+            self.cells(ui, &sheet, in_sight, self.numbered(ui, cell));
+            if let Some((row, column)) = response.hover_pos().and_then(|p| self.at(&sheet, p)) {
+                response.clone().on_hover_text_at_pointer(tr(self.words(row, column)));
+            }
             if self.grid.runs.len() * self.grid.channels.len() <= MANY {
-                clicked = self.nodes(ui, &sheet);
+                clicked = self.nodes(ui, &sheet, &mut response);
             } else if let Some((row, column)) = response.interact_pointer_pos().and_then(|p| self.at(&sheet, p)) {
                 clicked = response.clicked().then(|| (self.grid.runs[column], self.grid.channels[row].clone()));
             }
-            if let Some((row, column)) = response.hover_pos().and_then(|p| self.at(&sheet, p)) {
-                response.on_hover_text_at_pointer(tr(self.words(row, column)));
-            }
+            let ground = Rect::from_min_size(sheet.origin, cell * vec2(columns, rows));
+            let value = |[column, row]: [usize; 2]| Some(100.0 * (*whole.cells.get(row)?.get(column)?)?.error);
+            map.end(ui, &response, ground, Axis::new("Error", "%"), &value);
+            let draw = |palette: &Palette| self.grid.draw(&self.scale, NAME, palette);
+            export::offer(ui, &[response], NAME, &draw, &|| whole.table());
         });
-        clicked
+        // With Shift a cell takes a cursor.
+        clicked.filter(|_| !ui.input(|i| i.modifiers.shift))
+    }
+
+    /// Runs and channels as axes with names.
+    fn axes(&self) -> Figure {
+        let runs: Vec<String> = self.grid.runs.iter().map(|run| (run + 1).to_string()).collect();
+        let axis = |name: &str, names: &[String]| Axis::new(name, "").ticks(Ticks::Names(names.into()));
+        Figure::new(NAME, axis("Run", &runs), axis("", &self.grid.channels))
     }
 
     /// Names of the channels, and numbers of the runs in the `columns` in sight.
@@ -131,8 +163,8 @@ impl Map<'_> {
         }
     }
 
-    /// Every cell reached by Tab and read aloud.
-    fn nodes(&self, ui: &mut Ui, sheet: &Sheet) -> Option<(usize, String)> {
+    /// Every cell reached by Tab and read aloud; what the pointer does to one it does to the `whole`.
+    fn nodes(&self, ui: &mut Ui, sheet: &Sheet, whole: &mut Response) -> Option<(usize, String)> {
         let mut clicked = None;
         for (row, channel) in self.grid.channels.iter().enumerate() {
             for (column, &run) in self.grid.runs.iter().enumerate() {
@@ -150,7 +182,7 @@ impl Map<'_> {
                 if response.clicked() {
                     clicked = Some((run, channel.clone()));
                 }
-                response.on_hover_text(tr(self.words(row, column)));
+                *whole = whole.union(response.on_hover_text(tr(self.words(row, column))));
             }
         }
         clicked
