@@ -64,7 +64,7 @@ pub(super) fn mended_first(
 
 /// Faults that a mapping can mend, with a model that has this loss factor beside what is known.
 fn faults_with(project: &Project, loss_factor: f64, control: &Control) -> Result<Vec<ChannelFault>, ValidationError> {
-    let whole = Source::candidate(Effect::LossFactor, Place::Whole(None)).with_coefficient(loss_factor);
+    let whole = Source::candidate(Effect::STAND_IN, Place::Whole(None)).with_coefficient(loss_factor);
     let mut damped = project.clone();
     damped.sources.push(Source { state: State::Known, ..whole });
     let mut faults = if has_records(project) {

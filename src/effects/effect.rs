@@ -35,6 +35,8 @@ impl Effect {
     pub const DASHPOT: Self = Self::Viscous;
     /// The spring among the laws.
     pub const SPRING: Self = Self::Stiffness;
+    /// What stands in for the damping of a structure of which none is known: the same loss factor in every mode.
+    pub const STAND_IN: Self = Self::LossFactor;
 
     /// The effect of that name in project files.
     pub fn from_name(name: &str) -> Option<Self> {

@@ -5,7 +5,7 @@
 
 use super::band::line_omega;
 use super::motion::Motion;
-use crate::effects::{Effect, Kind, Law, Leg, Source};
+use crate::effects::{Constant, Kind, Law, Leg, Source};
 use crate::response::linear_matrices::unit_matrix;
 use crate::structure::Structure;
 use dashpot_numerics::{product, transposed_product};
@@ -79,7 +79,7 @@ impl<'a> Works<'a> {
     pub(crate) fn leg_force(&mut self, source: &Source, leg: Leg) -> Option<Vec<f64>> {
         let (weights, motion) = (self.weights(leg), self.motion);
         let [d, v] = self.relative(leg);
-        if source.effect == Effect::Viscous {
+        if source.effect.adds_to(Constant::Viscous) {
             let c = source.coefficient();
             return Some(v.iter().map(|v| c * v).collect());
         }

@@ -51,7 +51,7 @@ const STAND_IN: f64 = 0.01;
 fn driven(project: &Project, control: &Control) -> Option<String> {
     let structure = &project.structure;
     structure.matrices()?;
-    let whole = Source::candidate(Effect::LossFactor, Place::Whole(None)).with_coefficient(STAND_IN);
+    let whole = Source::candidate(Effect::STAND_IN, Place::Whole(None)).with_coefficient(STAND_IN);
     let sources = [Source { state: State::Known, ..whole }];
     let problem = Problem { structure, sources: &sources, runs: &project.runs };
     // What cannot be compared says nothing of the place.

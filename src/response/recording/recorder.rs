@@ -5,7 +5,7 @@
 use super::base::BaseMotion;
 use super::loading::Loading;
 use crate::control::Control;
-use crate::effects::{Effect, Source};
+use crate::effects::{Constant, Source};
 use crate::math::decimation::low_pass;
 use crate::measurement::{Channel, Quantity};
 use crate::response::simulation::{SimulationError, sensor_errors};
@@ -195,7 +195,7 @@ fn release(
         modes.shape(index.ok_or(SimulationError::NoSuchMode { mode: number, count: modes.len() })?)
     } else {
         let mut stiffness = matrices.stiffness.clone();
-        for source in sources.iter().filter(|source| source.effect == Effect::Stiffness) {
+        for source in sources.iter().filter(|source| source.effect.adds_to(Constant::Stiffness)) {
             for leg in source.place.legs() {
                 let ends = [Some((leg.first, 1.0)), leg.second.map(|second| (second, -1.0))];
                 for (i, a) in ends.iter().flatten() {
@@ -248,7 +248,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models;
-    use crate::effects::Place;
+    use crate::effects::{Effect, Place};
     use crate::response::dynamic_stiffness::DynamicStiffness;
     use faer::c64;
     use std::f64::consts::{PI, TAU};

@@ -5,7 +5,7 @@ use super::error::TransientError;
 use super::reduction::{RESIDUAL_DAMPING, Reduction};
 use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
-use crate::effects::{Basis, Effect, Kind, Law, Leg, Place, Source};
+use crate::effects::{Basis, Constant, Effect, Kind, Law, Leg, Place, Source};
 use crate::structure::factors::Triplets;
 use faer::Mat;
 use std::f64::consts::PI;
@@ -18,8 +18,7 @@ pub(super) type Nonlinear = (usize, Leg, Form, &'static dyn Law, Vec<f64>);
 
 /// Whether a source belongs to the linear part.
 pub(super) fn is_linear(effect: Effect) -> bool {
-    use Effect::{Mass, MassProportional, Stiffness, StiffnessProportional, Viscous};
-    matches!(effect, Mass | Viscous | Stiffness | StiffnessProportional | MassProportional)
+    matches!(effect.constant(), Some(Constant::Mass | Constant::Viscous | Constant::Stiffness))
 }
 
 /// Whether a law between places has a force in time that can be stepped.
@@ -98,15 +97,14 @@ pub(super) fn assemble(
         let unit = unit_matrix(setup, reduction, source, &own, along);
         let mut by = Matrices::zeros(size);
         let (value, scaled) = (source.parameters[0], faer::Scale(source.parameters[0]));
-        match source.effect {
-            Effect::Mass => (total.mass, by.mass) = (&total.mass + &unit * scaled, unit),
-            Effect::Stiffness => (total.stiffness, by.stiffness) = (&total.stiffness + &unit * scaled, unit),
+        match source.effect.constant() {
+            Some(Constant::Mass) => (total.mass, by.mass) = (&total.mass + &unit * scaled, unit),
+            Some(Constant::Stiffness) => (total.stiffness, by.stiffness) = (&total.stiffness + &unit * scaled, unit),
             _ => (total.damping, by.damping) = (&total.damping + &unit * scaled, unit),
         }
-        match source.effect {
-            Effect::StiffnessProportional => by_stiffness.damping += &by.damping * faer::Scale(value),
-            Effect::MassProportional => by_mass.damping += &by.damping * faer::Scale(value),
-            _ => {}
+        if let Kind::Whole(law) = source.effect.kind() {
+            let by_basis = if law.basis() == Basis::Stiffness { &mut by_stiffness } else { &mut by_mass };
+            by_basis.damping += &by.damping * faer::Scale(value);
         }
         if source.place == Place::Whole(None) {
             whole += &by.damping * faer::Scale(value);
