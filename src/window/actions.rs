@@ -6,6 +6,7 @@ use super::document::Document;
 use super::edits::Edit;
 use super::files::{self, Pick};
 use super::leaving::{Changes, Leave};
+use super::menu_bar;
 use super::motion;
 use super::report_choice::{ReportChoice, Wish};
 use super::view::Stage;
@@ -63,6 +64,7 @@ impl App {
             }
             Command::ResetLayout => self.desk.reset(self.view.stage),
             Command::Messages => self.view.messages = !self.view.messages,
+            Command::Menus => menu_bar::focus(ctx),
             Command::Tour => self.view.tour = if self.view.tour.is_some() { None } else { Some(0) },
             Command::Laws => self.learn.open = !self.learn.open,
             Command::Keys => self.view.keys = !self.view.keys,

@@ -1,5 +1,6 @@
 //! The one table of commands: label, tooltip and keys once; menus, buttons and keys read it.
 
+use super::menu_bar;
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 /// What a menu entry, a button or a key can ask for.
@@ -35,6 +36,7 @@ pub enum Command {
     NextRun,
     ResetLayout,
     Messages,
+    Menus,
     Tour,
     Laws,
     Keys,
@@ -74,7 +76,7 @@ const fn entry(command: Command, label: &'static str, tooltip: &'static str, key
 }
 
 /// All commands.
-pub const TABLE: [Entry; 33] = [
+pub const TABLE: [Entry; 34] = [
     entry(Command::Open, "Open…", "Opens a project file.", ctrl(Key::O)),
     entry(
         Command::Import,
@@ -124,6 +126,12 @@ pub const TABLE: [Entry; 33] = [
     entry(Command::NextRun, "Next run", "Selects the run below.", plain(Key::ArrowDown)),
     entry(Command::ResetLayout, "Reset layout", "Puts the panes of this stage back to where they were at first.", None),
     entry(Command::Messages, "Messages", "Lists all that was said.", ctrl(Key::M)),
+    entry(
+        Command::Menus,
+        "Menus",
+        "Moves the focus to the menus: arrows walk through them, Enter opens and chooses, Escape closes.",
+        plain(Key::F10),
+    ),
     entry(Command::Tour, "Tour", "Ten steps through the program on a sample.", None),
     entry(Command::Laws, "Laws of damping", "What each law looks like on a small structure.", ctrl(Key::L)),
     entry(Command::Keys, "Keys", "Lists all keys.", plain(Key::F1)),
@@ -143,8 +151,14 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let typing = ctx.egui_wants_keyboard_input();
     // What has the focus is clicked by the space bar, as everywhere.
     let focused = ctx.memory(|m| m.focused().is_some());
-    let clicks = |k: &KeyboardShortcut| focused && k.logical_key == Key::Space;
-    let wanted = |e: &&Entry| e.keys.is_some_and(|k| (!typing || k.modifiers.any()) && !clicks(&k));
+    // Letters and arrows belong to a menu that is open.
+    let in_menus = menu_bar::has_keys(ctx);
+    let is_taken = |k: &KeyboardShortcut| {
+        let clicks = focused && k.logical_key == Key::Space;
+        let plain = !k.modifiers.any();
+        clicks || (plain && (typing || (in_menus && !is_function(k.logical_key))))
+    };
+    let wanted = |e: &&Entry| e.keys.is_some_and(|k| !is_taken(&k));
     // Longer combinations first, so that Ctrl+Shift+Z is not taken for Ctrl+Z.
     let mut rows: Vec<&Entry> = TABLE.iter().filter(wanted).collect();
     rows.sort_by_key(|e| e.keys.map(|k| !k.modifiers.shift));
@@ -152,6 +166,11 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
         .filter(|e| e.keys.is_some_and(|k| ctx.input_mut(|i| i.consume_shortcut(&k))))
         .map(|e| e.command)
         .collect()
+}
+
+/// Whether a key writes nothing and walks nowhere.
+fn is_function(key: Key) -> bool {
+    matches!(key, Key::F1 | Key::F10)
 }
 
 #[cfg(test)]

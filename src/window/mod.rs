@@ -20,6 +20,7 @@ pub(crate) mod jobs;
 pub mod language;
 pub mod learn;
 pub(crate) mod leaving;
+mod menu_bar;
 pub(crate) mod motion;
 pub mod offscreen;
 pub(crate) mod opened;

@@ -120,3 +120,46 @@ fn an_effect_is_added_without_a_pointer() {
     assert!(!harness.state().view.animate, "the space bar clicks what has the focus");
     harness.get_by_label_contains("The model now explains the data");
 }
+
+/// From the focus of a key to an entry of a menu and of a menu within; what the arrows do elsewhere they do not do meanwhile.
+#[test]
+fn the_menus_without_a_pointer() {
+    let sample = beam();
+    let mut harness = open(&sample, Theme::Light);
+    settle(&mut harness);
+    harness.remove_cursor();
+    let press = |harness: &mut Harness<'_, App>, keys: &[Key]| {
+        for key in keys {
+            harness.key_press(*key);
+            harness.run_steps(3);
+        }
+    };
+    press(&mut harness, &[Key::F10]);
+    assert!(harness.get_by_role_and_label(Role::Button, "File").accesskit_node().is_focused());
+    press(&mut harness, &[Key::ArrowRight, Key::ArrowRight]);
+    assert!(harness.get_by_role_and_label(Role::Button, "View").accesskit_node().is_focused());
+    press(&mut harness, &[Key::Enter]);
+    assert!(harness.query_by_label_contains("Reset layout").is_some(), "the menu is open");
+    let run = harness.state().view.run;
+    press(&mut harness, &[Key::ArrowDown, Key::ArrowDown, Key::ArrowDown]);
+    assert_eq!(harness.state().view.run, run, "arrows walk through the menu and choose no run");
+    press(&mut harness, &[Key::Enter]);
+    assert_eq!(harness.state().view.stage, Stage::Pattern);
+    assert!(harness.query_by_label_contains("Reset layout").is_none(), "the menu is closed");
+    // A menu within it, upwards from the last entry.
+    press(&mut harness, &[Key::F10, Key::ArrowRight, Key::ArrowRight, Key::Enter]);
+    for _ in 0..MOST {
+        press(&mut harness, &[Key::ArrowDown]);
+        if harness.get_by_label_contains("Text size").accesskit_node().is_focused() {
+            break;
+        }
+    }
+    press(&mut harness, &[Key::ArrowRight]);
+    assert!(harness.query_by_label("80 %").is_some(), "the menu within is open");
+    press(&mut harness, &[Key::ArrowDown, Key::Enter]);
+    assert!((harness.ctx.zoom_factor() - 0.9).abs() < 1e-6, "{}", harness.ctx.zoom_factor());
+    press(&mut harness, &[Key::F10, Key::Enter]);
+    assert!(harness.query_by_label_contains("Open recent").is_some());
+    press(&mut harness, &[Key::Escape]);
+    assert!(harness.query_by_label_contains("Open recent").is_none(), "Escape closes");
+}

@@ -8,9 +8,12 @@ use crate::window::language::{t, tf, tr};
 use crate::window::plots::{export, table};
 use crate::window::theme::{self, Palette, size, space};
 use crate::window::view::Stage;
-use crate::window::widgets::{UiExt, folded};
-use crate::window::{files, templates};
-use egui::{Align, Align2, Button, Color32, Frame, Layout, Margin, Panel, Rect, Role, Sense, Ui, WidgetInfo, vec2};
+use crate::window::widgets::{UiExt, folded, width};
+use crate::window::{files, menu_bar, templates};
+use egui::{
+    Align, Align2, Button, Color32, Frame, Galley, Layout, Margin, Panel, Rect, Role, Sense, Ui, WidgetInfo, vec2,
+};
+use std::sync::Arc;
 
 /// Where a stage stands, and why in one line.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,8 +71,8 @@ pub(crate) fn show(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
 
 fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     let open = app.document.is_some();
-    ui.menu_button(t!("File"), |ui| file(ui, app, asks));
-    ui.menu_button(t!("Edit"), |ui| {
+    let first = ui.menu_button(t!("File"), |ui| file(ui, app, asks));
+    let second = ui.menu_button(t!("Edit"), |ui| {
         let undo = app.document.as_ref().and_then(|d| d.session().history().undo_label());
         let redo = app.document.as_ref().and_then(|d| d.session().history().redo_label());
         entry(ui, Command::Undo, undo.is_some(), undo, asks);
@@ -78,39 +81,44 @@ fn menus(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
         entry(ui, Command::RemoveSelected, app.view.source.is_some(), None, asks);
         entry(ui, Command::ClearCandidates, open, None, asks);
     });
-    ui.menu_button(t!("View"), |ui| {
-        for command in
-            [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result, Command::Explain]
-        {
-            entry(ui, command, open, None, asks);
-        }
-        ui.separator();
-        entry(ui, Command::Shape, open, None, asks);
-        entry(ui, Command::Animate, open, None, asks);
-        ui.separator();
-        ui.add_enabled_ui(open, |ui| {
-            ui.menu_button(t!("Panes"), |ui| {
-                for (pane, mut shown) in app.desk.panes(app.view.stage) {
-                    if ui.checkbox(&mut shown, tr(pane.title())).clicked() {
-                        asks.push(Ask::Pane(pane, shown));
-                    }
-                }
-            });
-        });
-        entry(ui, Command::ResetLayout, open, None, asks);
-        ui.separator();
-        ui.menu_button(t!("Units"), super::units::menu);
-        ui.menu_button(t!("Text size"), text_sizes);
-        ui.menu_button(t!("Language"), super::language::menu);
-        entry(ui, Command::Messages, true, None, asks);
-        entry(ui, Command::Theme, true, None, asks);
-        entry(ui, Command::LessMotion, true, None, asks);
-    });
-    ui.menu_button(t!("Help"), |ui| {
-        for command in [Command::Tour, Command::Laws, Command::Keys, Command::About] {
+    let third = ui.menu_button(t!("View"), |ui| view(ui, app, asks));
+    let last = ui.menu_button(t!("Help"), |ui| {
+        for command in [Command::Tour, Command::Laws, Command::Menus, Command::Keys, Command::About] {
             entry(ui, command, true, None, asks);
         }
     });
+    let all = [first.response, second.response, third.response, last.response];
+    menu_bar::note(ui.ctx(), all.iter().map(|button| button.id).collect());
+}
+
+fn view(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
+    let open = app.document.is_some();
+    for command in
+        [Command::Measure, Command::Structure, Command::Pattern, Command::Select, Command::Result, Command::Explain]
+    {
+        entry(ui, command, open, None, asks);
+    }
+    ui.separator();
+    entry(ui, Command::Shape, open, None, asks);
+    entry(ui, Command::Animate, open, None, asks);
+    ui.separator();
+    ui.add_enabled_ui(open, |ui| {
+        ui.menu_button(t!("Panes"), |ui| {
+            for (pane, mut shown) in app.desk.panes(app.view.stage) {
+                if ui.checkbox(&mut shown, tr(pane.title())).clicked() {
+                    asks.push(Ask::Pane(pane, shown));
+                }
+            }
+        });
+    });
+    entry(ui, Command::ResetLayout, open, None, asks);
+    ui.separator();
+    ui.menu_button(t!("Units"), super::units::menu);
+    ui.menu_button(t!("Text size"), text_sizes);
+    ui.menu_button(t!("Language"), super::language::menu);
+    entry(ui, Command::Messages, true, None, asks);
+    entry(ui, Command::Theme, true, None, asks);
+    entry(ui, Command::LessMotion, true, None, asks);
 }
 
 /// Sizes of all words and symbols; the keys of browsers do the same in finer steps.
@@ -225,56 +233,91 @@ fn entry(ui: &mut Ui, command: Command, enabled: bool, object: Option<&str>, ask
     }
 }
 
+/// Room in the bar of stages, points.
+#[derive(Debug, Clone, Copy)]
+struct Room {
+    /// Beside the name of a stage, for its symbol and its mark.
+    tab: f32,
+    /// Of the arrow between two stages.
+    chevron: f32,
+    /// Before the reason.
+    before: f32,
+}
+
+impl Room {
+    const WIDE: Self = Self { tab: 58.0, chevron: 12.0, before: space::L };
+    /// Where the reason would be cut short otherwise.
+    const TIGHT: Self = Self { tab: 50.0, chevron: 8.0, before: space::S };
+
+    /// What the stages leave for the reason.
+    fn left(self, ui: &Ui) -> f32 {
+        let names = Stage::ALL.map(|stage| width(ui, stage.label(), theme::font(size::HEADING)) + self.tab);
+        let gaps = (Stage::ALL.len() - 1) as f32;
+        let spacing = (2.0 * gaps + 2.0) * BETWEEN;
+        ui.available_width() - names.iter().sum::<f32>() - gaps * self.chevron - spacing - self.before
+    }
+}
+
+/// Between two things in the bar of stages, points.
+const BETWEEN: f32 = 2.0;
+
 fn stages(ui: &mut Ui, app: &App, asks: &mut Vec<Ask>) {
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().item_spacing.x = BETWEEN;
+        let mark = app.status(app.view.stage);
+        let fits = !reason_words(ui, &mark.reason, Room::WIDE.left(ui)).elided;
+        let room = if fits { Room::WIDE } else { Room::TIGHT };
         for (k, stage) in Stage::ALL.into_iter().enumerate() {
             if k > 0 {
-                chevron(ui);
+                chevron(ui, room);
             }
-            if tab(ui, stage, app.view.stage == stage, &app.status(stage)) {
+            if tab(ui, stage, app.view.stage == stage, &app.status(stage), room) {
                 asks.push(Ask::Stage(stage));
             }
         }
-        ui.add_space(space::L);
-        let mark = app.status(app.view.stage);
+        ui.add_space(room.before);
         let colour = if mark.kind == Kind::Attention { ui.palette().warning } else { ui.palette().weak };
         reason(ui, &mark.reason, colour);
     });
 }
 
-/// Why the stage stands where it stands: on one line, or where there is little room on two.
-fn reason(ui: &mut Ui, text: &str, colour: Color32) {
+/// A reason on one line, or where there is little room on two.
+fn reason_words(ui: &Ui, text: &str, room: f32) -> Arc<Galley> {
     // A number and its sign stay on one line.
     let together = tr(text).replace(" %", "\u{a0}%");
-    let words = folded(ui, &together, theme::font(size::SMALL), colour, ui.available_width(), 2);
+    folded(ui, &together, theme::font(size::SMALL), Color32::PLACEHOLDER, room, 2)
+}
+
+/// Why the stage stands where it stands.
+fn reason(ui: &mut Ui, text: &str, colour: Color32) {
+    let words = reason_words(ui, text, ui.available_width());
     let (rect, response) = ui.allocate_exact_size(words.size(), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, tr(text)));
     ui.painter().galley(rect.min, words, colour);
     response.on_hover_text(tr(text));
 }
 
-fn chevron(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 34.0), Sense::hover());
+fn chevron(ui: &mut Ui, room: Room) {
+    let (rect, _) = ui.allocate_exact_size(vec2(room.chevron, 34.0), Sense::hover());
     let c = rect.center();
     let points = vec![c + vec2(-2.0, -4.0), c + vec2(2.0, 0.0), c + vec2(-2.0, 4.0)];
     ui.painter().add(egui::Shape::line(points, theme::hair(ui.palette().weak)));
 }
 
 /// A stage with its mark; true when it was clicked.
-fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus) -> bool {
-    let palette = ui.palette();
+fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus, room: Room) -> bool {
+    let (palette, nearer) = (ui.palette(), 0.5 * (Room::WIDE.tab - room.tab));
     let galley = ui.painter().layout_no_wrap(tr(stage.label()), theme::font(size::HEADING), Color32::PLACEHOLDER);
-    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 58.0, 34.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + room.tab, 34.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Tab, true, open, tr(stage.label())));
     let painter = ui.painter();
     if response.hovered() {
         painter.rect_filled(rect.shrink2(vec2(0.0, 3.0)), 5.0, palette.raised);
     }
     let ink = if open { palette.accent } else { palette.ink };
-    let icon = Rect::from_center_size(rect.left_center() + vec2(17.0, 0.0), vec2(15.0, 15.0));
+    let icon = Rect::from_center_size(rect.left_center() + vec2(17.0 - nearer, 0.0), vec2(15.0, 15.0));
     super::icons::stage(painter, stage, icon, ink);
-    let centre = rect.right_center() - vec2(13.0, 0.0);
+    let centre = rect.right_center() - vec2(13.0 - nearer, 0.0);
     match mark.kind {
         Kind::Empty => drop(painter.circle_stroke(centre, 4.0, theme::pen(palette.weak))),
         Kind::Done => {
@@ -287,7 +330,7 @@ fn tab(ui: &mut Ui, stage: Stage, open: bool, mark: &StageStatus) -> bool {
             painter.text(centre, Align2::CENTER_CENTER, "!", theme::font(size::SMALL), palette.pane);
         }
     }
-    painter.galley(rect.left_center() + vec2(31.0, -0.5 * galley.size().y), galley, ink);
+    painter.galley(rect.left_center() + vec2(31.0 - nearer, -0.5 * galley.size().y), galley, ink);
     if open {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.5), rect.right_bottom());
         painter.rect_filled(line, 1.0, palette.accent);

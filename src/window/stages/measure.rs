@@ -50,13 +50,14 @@ struct Shown {
 }
 
 impl Shown {
-    /// In a table of `width` points whose longest flags take `longest`.
-    fn new(width: f32, levels: bool, longest: f32) -> Self {
-        let always = 30.0 + LEAST_FILE + FREQUENCY + FLAG_COUNT + if levels { LEVEL } else { 0.0 } + 7.0 * space::XS;
+    /// In a table of `width` points whose longest flags take `longest`, and their head `head`.
+    fn new(width: f32, levels: bool, [longest, head]: [f32; 2]) -> Self {
+        let least = head.max(FLAG_COUNT);
+        let always = 30.0 + LEAST_FILE + FREQUENCY + least + if levels { LEVEL } else { 0.0 } + 7.0 * space::XS;
         let room = width - always;
-        let more = longest.clamp(FLAG_COUNT, FLAGS) - FLAG_COUNT;
+        let more = (longest.min(FLAGS) - least).max(0.0);
         let words = room > NOISE + more;
-        let flags = if words { FLAG_COUNT + more } else { FLAG_COUNT };
+        let flags = if words { least + more } else { least };
         Self { noise: room > NOISE, words, harmonics: room > NOISE + more + HARMONICS, flags }
     }
 
@@ -268,7 +269,8 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
     let levels = p.runs.iter().any(|r| r.level.is_some());
     ui.spacing_mut().item_spacing.x = space::XS;
     let flags = p.runs.iter().filter_map(flags).map(|text| width(ui, &text, theme::font(theme::size::SMALL)) + PILL);
-    let shown = Shown::new(ui.available_width(), levels, flags.fold(0.0, f32::max));
+    let head = width(ui, "Flags", theme::font(theme::size::SMALL)) + 2.0 * space::S;
+    let shown = Shown::new(ui.available_width(), levels, [flags.fold(0.0, f32::max), head]);
     let folder = common_folder(p);
     TableBuilder::new(ui)
         .striped(true)

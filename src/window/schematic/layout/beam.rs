@@ -18,6 +18,8 @@ const POINTS_PER_ELEMENT: usize = 8;
 const DEFLECTION: f32 = 46.0;
 /// Least distance of the axis from the caption, points.
 const LEAST_ABOVE: f32 = 48.0;
+/// The same where the ground had no room otherwise: marks of rotations then stand beside the caption.
+const CRAMPED_ABOVE: f32 = 12.0;
 /// Room that the mark of a rotation takes above its node, points.
 const ABOVE_NODE: f32 = 34.0;
 /// Room that a source to the ground takes below its node at least, points.
@@ -87,7 +89,9 @@ impl<'a> Frame<'a> {
         // Where there is little room the ground comes nearer first, then the axis goes up.
         let nearer = (-spare).clamp(0.0, DROP - LEAST_DROP);
         let higher = (-spare - nearer).clamp(0.0, (above - LEAST_ABOVE).max(0.0));
-        let axis = top + above - higher + (spare / 2.0).max(0.0);
+        let foot = top + above - higher + LEAST_LEAD + LEAST_SYMBOL + LEAST_BELOW;
+        let cramped = (foot - area.bottom()).clamp(0.0, (above - higher - CRAMPED_ABOVE).max(0.0));
+        let axis = top + above - higher - cramped + (spare / 2.0).max(0.0);
         let drop = (DROP - nearer).min(area.bottom() - LEAST_BELOW - axis).max(LEAST_LEAD + LEAST_SYMBOL);
         // Neither caption nor ground are reached, whatever the phase of the motion.
         let room = (axis - top - ABOVE_NODE).min(drop - BELOW_NODE);

@@ -81,7 +81,8 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     let outcome = opened.derived.known_outcome(document).and_then(Result::ok);
     let untaken = said_of_untaken(&scene, outcome.as_deref()).filter(|_| shown.trial.is_none());
     // In a low pane the errors, which stand above and below it too, leave their line to the cells and their scale.
-    let is_low = ui.available_height() < CRAMPED && look.in_bar[0] && untaken.is_some();
+    let beside = if untaken.is_some() { CRAMPED } else { SENTENCE + map::height(&grid, map::LEAST) + LEGEND };
+    let is_low = ui.available_height() < beside && look.in_bar[0];
     if !is_low {
         head(ui, &mut look, previewed);
     }
@@ -96,12 +97,15 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     let name = if records { look.record.clone() } else { samples::selected(p, run, opened.view.channel) };
     let selected = if grid.channels[0] == ENERGY { Some(ENERGY) } else { name.as_deref() };
     let selected = selected.map(|channel| (run, channel));
+    if is_low {
+        ui.spacing_mut().item_spacing.y = 0.0;
+    }
     let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale };
     // The cells come first: what is left over is said in a line of its own where they are high enough beside it.
-    let (room, said) = (ui.available_height() - LEGEND, left_over(previewed));
+    let (room, said) = (ui.available_height() - if is_low { LOW_LEGEND } else { LEGEND }, left_over(previewed));
     let with_words = room - SENTENCE >= map::height(&grid, LOW);
     let clicked = map.show(ui, if with_words { room - SENTENCE } else { room });
-    ui.add_space(space::XS);
+    ui.add_space(if is_low { 1.0 } else { space::XS });
     let legend = map::legend(ui, &scale);
     if with_words {
         ui.add(Label::new(RichText::new(tr(said)).size(size::SMALL).color(ui.palette().weak)).truncate());
@@ -123,6 +127,7 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
 const CRAMPED: f32 = 170.0;
 /// Height of the legend of the map, and of the sentence under it, points.
 const LEGEND: f32 = 40.0;
+const LOW_LEGEND: f32 = 29.0;
 const SENTENCE: f32 = 22.0;
 /// Least height of cells beside which the sentence has room, points.
 const LOW: f32 = 14.0;
