@@ -3,6 +3,7 @@
 use super::argument_values::{format, fraction, harmonics, noise, paper, positive, seconds};
 use super::arguments_import::Import;
 use super::arguments_report::Report;
+use super::screen::{Picture, Window};
 use crate::exchange::export::Format;
 use crate::response::frequency_response::Quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -10,11 +11,7 @@ use std::path::PathBuf;
 
 /// What the window adds.
 #[cfg(feature = "window")]
-const WINDOW: &str = "\
-The window:
-  dashpot [FILE]                 Open it on a project, or on the start screen
-  dashpot picture FILE --stage STAGE --out PNG
-                                 Draw a stage without a display";
+const WINDOW: &str = "`dashpot` alone or with a file opens the window: the same as `dashpot window [FILE]`.";
 
 /// Tells where a structure loses its energy, how much and by which mechanism.
 #[derive(Debug, Parser)]
@@ -57,6 +54,10 @@ pub(super) enum Command {
     Plot(Plot),
     /// Play a script of commands on a project, as the window would do them
     Run(Run),
+    /// Open the window on a project, on a file of measurements or on the start screen
+    Window(Window),
+    /// Draw a stage of the window without a display
+    Picture(Picture),
 }
 
 #[derive(Debug, Args)]

@@ -8,8 +8,7 @@ const HEAD: &str = "# Command line\n\n\
     Made of the program's own parser by `UPDATE_DOCS=1 cargo test --no-default-features --test docs`; `dashpot COMMAND --help` says the\n\
     same. Results go to standard output, as a table or with `--json` as one JSON document ([its keys](formats.md)); one line that says\n\
     what is wrong goes to standard error. Exit status: 0 done, 1 the input is at fault, 2 wrong usage.\n\n\
-    With the window there are also `dashpot [FILE]`, which opens it, and `dashpot picture FILE --stage STAGE --out PNG`, which draws a\n\
-    stage without a display.\n";
+    `dashpot` alone or with a file opens the window, where the program was built with it.\n";
 
 /// All commands with their arguments, as Markdown.
 pub fn manual() -> String {

@@ -36,6 +36,7 @@ mod reduction;
 mod remarks;
 mod report;
 mod run_flags;
+mod screen;
 mod simulate;
 mod simulate_component;
 mod simulate_frf;
@@ -44,6 +45,7 @@ mod source_json;
 mod table;
 
 pub use manual::manual;
+pub use screen::{Picture, Screen, Window};
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -51,8 +53,10 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Runs the program on its arguments, the first of which is its name.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the program on its arguments, the first of which is its name; with a window a file or nothing opens it.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, screen: Option<&dyn Screen>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = if screen.is_some() { screen::with_command(arguments) } else { arguments };
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -61,7 +65,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    match execute(&arguments.command) {
+    match execute(&arguments.command, screen) {
         Ok(text) => print(&text),
         Err(error) => {
             eprintln!("{}", one_line(&error));
@@ -73,10 +77,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// What the program would print for these arguments, or the one line of its error: for programs that ask many times.
 pub fn answer(arguments: impl IntoIterator<Item = OsString>) -> Result<String, String> {
     let arguments = Arguments::try_parse_from(arguments).map_err(|error| error.to_string())?;
-    execute(&arguments.command).map_err(|error| one_line(&error))
+    execute(&arguments.command, None).map_err(|error| one_line(&error))
 }
 
-fn execute(command: &Command) -> anyhow::Result<String> {
+fn execute(command: &Command, screen: Option<&dyn Screen>) -> anyhow::Result<String> {
+    let window = || screen.ok_or("there is no window here: it comes with the feature `window` of the program");
     match command {
         Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
@@ -94,7 +99,14 @@ fn execute(command: &Command) -> anyhow::Result<String> {
         Command::Report(arguments) => report::run(arguments),
         Command::Plot(arguments) => plot::run(arguments),
         Command::Run(arguments) => play::run(arguments),
+        Command::Window(asked) => done(window().map_err(str::to_owned).and_then(|screen| screen.open(asked))),
+        Command::Picture(asked) => done(window().map_err(str::to_owned).and_then(|screen| screen.picture(asked))),
     }
+}
+
+/// What is said of what the window did: nothing, or its error.
+fn done(result: Result<(), String>) -> anyhow::Result<String> {
+    result.map(|()| String::new()).map_err(anyhow::Error::msg)
 }
 
 /// Prints to standard output; a reader that has left early, such as `head`, is no failure.

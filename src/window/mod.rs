@@ -2,7 +2,6 @@
 
 mod actions;
 pub mod app;
-pub mod arguments;
 pub mod ask;
 pub(crate) mod cache;
 mod chosen_files;
@@ -25,7 +24,7 @@ pub(crate) mod motion;
 pub mod offscreen;
 pub(crate) mod opened;
 pub(crate) mod photograph;
-pub(crate) mod picture;
+pub mod picture;
 pub mod plots;
 pub(crate) mod prepared_records;
 pub(crate) mod records;

@@ -30,6 +30,19 @@ pub struct Picture {
     pub plots: Option<PathBuf>,
 }
 
+/// The stage of that name; `None` is the start screen.
+///
+/// # Errors
+/// One line that names the stages there are.
+pub fn stage(name: &str) -> Result<Option<Stage>, String> {
+    if name == "start" {
+        return Ok(None);
+    }
+    let known = || Stage::ALL.iter().map(|s| s.label().to_lowercase()).collect::<Vec<_>>().join(", ");
+    let found = Stage::from_name(name);
+    found.map(Some).ok_or_else(|| format!("--stage {name}: there is no such stage; choose start, {}", known()))
+}
+
 /// Draws a picture and writes it.
 ///
 /// # Errors
