@@ -1,7 +1,7 @@
 //! The search with updating parameters free beside effects: corrections alone, one change in place of many corrections, laws.
 
 use crate::diagnosis::channels::ChannelFault;
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
 use crate::diagnosis::selection::fitted_model::FittedModel;
@@ -169,15 +169,24 @@ fn rival<'a>(
 }
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
-/// those beside the effect.
+/// those beside the effect. Springs and masses are moved into the parts that they act on as well.
 fn alone<'a>(
     (likely, least): (ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     weighed: &Weighed<'a>,
 ) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
-    let beside = bare.updated(&weighed.reference.linearisation.updating, &[], &Vec::new())?;
-    let (estimated, cost) = beside.estimated()?;
-    Ok(if cost < least { (estimated, cost) } else { (likely, least) })
+    let beside = &weighed.reference.linearisation.updating;
+    let mut starts = vec![beside.clone()];
+    starts.extend(beside.absorbing(bare.predictor.stated().0, &weighed.fits[0].effects));
+    let mut best = (likely, least);
+    for start in starts {
+        let Some(moved) = if_possible(bare.updated(&start, &[], &Vec::new()))? else { continue };
+        let (estimated, cost) = moved.estimated()?;
+        if cost < best.1 {
+            best = (estimated, cost);
+        }
+    }
+    Ok(best)
 }
 
 /// Whether the corrections of `likely` alone are no rival of the effects of `best`: they predict the tests worse than the model as it

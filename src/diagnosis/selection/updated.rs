@@ -26,6 +26,8 @@ use std::sync::Arc;
 const STEPS: usize = 8;
 /// Gain of the squared residual per datum below which the fit has arrived.
 const ARRIVED: f64 = 1e-3;
+/// Squared residual per datum of the model with rigid supports from which on it is looked at with supports that give way.
+const SUPPORTED: f64 = 4.0;
 /// Rounds in which scales and effects are fitted in turn.
 const ROUNDS: usize = 3;
 /// Steps of the effects in each.
@@ -168,10 +170,28 @@ impl<'a> ReferenceModel<'a> {
         updating.towards(&updating.at(target).values)
     }
 
-    /// The model whose updating parameters fit the measurement best without any effect.
+    /// The model whose updating parameters fit the measurement best without any effect: from supports that are rigid, and, where
+    /// that leaves much, from supports that give way.
     pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
-        let mut updating = Updating::all(stated, known, self.data);
+        let rigid = Updating::all(stated, known, self.data);
+        let mut best = self.stepped(rigid.clone())?;
+        if best.as_ref().is_none_or(|(left, _)| *left > SUPPORTED * self.count() as f64) {
+            for updating in rigid.giving_way() {
+                let other = self.stepped(updating)?;
+                let lower = |(left, _): &(f64, _)| best.as_ref().is_none_or(|(least, _)| left < least);
+                best = if other.as_ref().is_some_and(lower) { other } else { best };
+            }
+        }
+        match best {
+            Some((_, reference)) => reference.settled_bare(STEPS),
+            None => self.updated(&rigid, &[], &Vec::new()),
+        }
+    }
+
+    /// The model fitted in limited steps from `updating` on, with its squared residual at its reference; none where there is no
+    /// such model.
+    fn stepped(&self, mut updating: Updating) -> Result<Option<(f64, ReferenceModel<'a>)>, DiagnosisError> {
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;
         for step in 0..STEPS {
             let Some(reference) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { break };
@@ -188,10 +208,7 @@ impl<'a> ReferenceModel<'a> {
             }
             updating = updating.towards(&target);
         }
-        match best {
-            Some((_, reference)) => reference.settled_bare(STEPS),
-            None => self.updated(&updating, &[], &Vec::new()),
-        }
+        Ok(best)
     }
 
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences

@@ -17,6 +17,8 @@ const MOST_SHAPES: usize = 48;
 /// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
 /// may be left.
 const SUPPORT: f64 = 2.0;
+/// Logarithm of the factor of a support that gives way as much as the element beside it.
+const GIVES_WAY: f64 = -std::f64::consts::LN_2;
 /// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
 const LARGEST: f64 = 2.0;
 
@@ -158,6 +160,23 @@ impl Updating {
     /// Whether modes are corrected, for want of parts that are known.
     pub fn is_by_modes(&self) -> bool {
         self.parameters.iter().any(|p| matches!(p, UpdatingParameter::Structure(Part::Mode(_))))
+    }
+
+    /// These parameters with one support or several given way: half the stiffness at a held DOF is the support's, half the
+    /// element's.
+    pub(crate) fn giving_way(&self) -> Vec<Self> {
+        let is_support = |k: &usize| matches!(self.parameters[*k], UpdatingParameter::Structure(Part::Support(_)));
+        let supports: Vec<usize> = (0..self.len()).filter(is_support).collect();
+        let with = |subset: usize| {
+            let mut values = self.values.clone();
+            for (bit, &k) in supports.iter().enumerate() {
+                if subset >> bit & 1 == 1 {
+                    values[k] = GIVES_WAY;
+                }
+            }
+            Self { values, ..self.clone() }
+        };
+        (1..1 << supports.len().min(2)).rev().map(with).collect()
     }
 
     /// Whether nothing may be updated.
