@@ -1,6 +1,6 @@
 //! What is said at the end of a search: steps, corrections, suggestions with their errors, the verdict.
 
-use super::data::RecordError;
+use super::data::{RecordError, Records};
 use super::evidence::{AGREES, misfit, scale};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
@@ -55,7 +55,11 @@ impl Search<'_> {
 
     /// The same, whatever corrections alone leave.
     fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
-        let last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
+        let late = self.control.is_late();
+        let mut last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
+        if late {
+            last = self.believable(last)?;
+        }
         let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;
             return Ok(());
@@ -66,23 +70,19 @@ impl Search<'_> {
             let worth = |s: &Step| !s.added.is_empty() || s.error < diagnosis.error_before;
             diagnosis.steps.extend(step.filter(worth));
         }
-        diagnosis.suggestions = suggestions(self.records, &last, self.control.is_late())?;
-        let late = self.control.is_late();
-        let corrections = corrections_of_parts(self.records, &if late { beyond_priors(best) } else { best.clone() });
+        diagnosis.suggestions = suggestions(self.records, &last, late)?;
+        let corrections = corrections_of_parts(self.records, best);
         // Where time is up the parts are told as the fit has them, whatever else could stand for them.
-        let late = late && !corrections.is_empty();
-        let told = if late { None } else { Some(self.told(best)?) };
+        let told = if late && !corrections.is_empty() { None } else { Some(self.told(best)?) };
         if let Some(told) = told.as_ref().filter(|_| corrections.is_empty()) {
             return self.conclude_with(told, &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
-        let factors: Vec<(Part, f64)> = corrections.iter().map(|(part, c)| (*part, c.factor)).collect();
-        let structure = self.structure_with(&factors);
+        let structure = self.structure_with(&factors(&corrections));
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
         let known = (self.excluded, self.stated, self.supports);
         let search = Search::new(&records, &plain, known, self.control);
-        let as_stated = |fit: &FittedRecords| FittedRecords { parts: vec![0.0; records.parts.len()], ..fit.clone() };
-        let fits: Vec<FittedRecords> = last.iter().map(as_stated).collect();
+        let fits: Vec<FittedRecords> = last.iter().map(|fit| beside_parts(fit, &records)).collect();
         let beside_parts = search.told(&fits[0])?;
         if let Some(told) = told {
             let [left, before] =
@@ -93,6 +93,23 @@ impl Search<'_> {
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
         search.conclude_with(&beside_parts, &fits, diagnosis)
+    }
+
+    /// The fits of a search whose time was up: without the corrections that are no more than their priors allow, of which nobody was asked
+    /// what else they stand for, unless these take away much of the error.
+    fn believable(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
+        let lean: Vec<FittedRecords> = fits.iter().map(beyond_priors).collect();
+        let (Some(best), Some(first)) = (fits.first(), lean.first()) else { return Ok(fits) };
+        let keeps = self.promised_with_parts(best)? < BETTER * self.promised_with_parts(first)?;
+        Ok(if keeps { fits } else { lean })
+    }
+
+    /// What comparing the project shows with all corrections of `fit` and its effects.
+    fn promised_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordError> {
+        let structure = self.structure_with(&factors(&corrections_of_parts(self.records, fit)));
+        let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
+        let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
+        search.promised(&beside_parts(fit, &records), &fit.effects)
     }
 
     /// Concludes with what is told, masses and springs that are errors of the model made corrections of it.
@@ -234,6 +251,15 @@ impl Search<'_> {
         }
         Ok(words)
     }
+}
+
+fn factors(corrections: &[(Part, Correction)]) -> Vec<(Part, f64)> {
+    corrections.iter().map(|(part, c)| (*part, c.factor)).collect()
+}
+
+/// A fit where its parts are those of the structure of `records`.
+fn beside_parts(fit: &FittedRecords, records: &Records) -> FittedRecords {
+    FittedRecords { parts: vec![0.0; records.parts.len()], ..fit.clone() }
 }
 
 /// A fit without the effects that later ones have left no size worth telling, where any other is left.

@@ -9,7 +9,7 @@ use super::compare::started_from;
 use super::data::RecordError;
 use super::evidence::{information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
-use super::problem::{FitProblem, Free, beyond_priors, modes};
+use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use crate::diagnosis::result::Added;
 use crate::effects::{Place, Source};
@@ -24,11 +24,11 @@ const ROUNDS: [usize; 2] = [2, 4];
 const PROMISING: [usize; 2] = [3, 3];
 
 impl Search<'_> {
-    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up those of
-    /// its corrections are told that are more than is believed without any record.
+    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up they are
+    /// told as they are.
     pub(super) fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         if self.control.is_late() {
-            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..beyond_priors(fit) });
+            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..fit.clone() });
         }
         let mut best: Option<(FittedRecords, usize)> = None;
         for (fit, sizes) in self.by_sizes(fit) {
@@ -45,7 +45,15 @@ impl Search<'_> {
     fn by_sizes(&self, fit: &FittedRecords) -> Vec<(FittedRecords, Vec<bool>)> {
         let first = parameters(fit);
         let wide = scale(fit).sqrt();
+        // A law that contains the known one trades with it: neither can be told without the other.
+        let trades = |j: usize| {
+            let known = &self.records.known[j];
+            fit.effects.iter().any(|e| e.place.is_same(&known.place) && e.effect.contains(known.effect))
+        };
         let moved = |j: usize| {
+            if trades(j) {
+                return fit.known[j].abs() > LEAST[0];
+            }
             let deviation = fit.deviations.get(first + 1 + j).copied().unwrap_or(f64::INFINITY) * wide;
             fit.known[j].abs() > (MOVED[0] * deviation).max(LEAST[0])
         };
