@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
+mod close_modes;
 mod fits;
 mod flags;
 mod frequencies;
