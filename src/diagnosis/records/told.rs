@@ -7,7 +7,7 @@
 
 use super::compare::started_from;
 use super::data::RecordError;
-use super::evidence::{information, misfit, parameters, scale};
+use super::evidence::{AGREES, information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
@@ -36,6 +36,11 @@ impl Search<'_> {
             if best.as_ref().is_some_and(|(told, _)| is_plainest(told, &fit)) {
                 break;
             }
+        }
+        // What agrees with the records only by sizes that are not sure each is told with all of them.
+        let enough = self.records.agreement(AGREES);
+        if misfit(fit) <= enough && best.as_ref().is_some_and(|(told, _)| misfit(told) > enough) {
+            self.told_with(fit, &vec![true; fit.known.len() + self.records.damped()], &mut best)?;
         }
         Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
-use crate::diagnosis::residual::prediction::FINAL;
+use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{
@@ -10,7 +10,8 @@ use crate::diagnosis::selection::found::{
 };
 use crate::diagnosis::selection::left_out::{exceeds, groups};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
-use crate::diagnosis::selection::weighing::{Weighed, weighed};
+use crate::diagnosis::selection::updated::REFITTED;
+use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::Kind;
 
@@ -27,6 +28,8 @@ const FURTHER: f64 = 100.0;
 /// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
 /// rival.
 const RIVALLED: f64 = 4.0;
+/// Times that a model is settled beside the effects that are left when another is taken away.
+const UPDATES: usize = 6;
 /// Share of the error of the stated model that effects may leave where corrections that raise it are no rival of theirs: further
 /// than chance or one run on another branch would bring them.
 const HALVED: f64 = 0.5;
@@ -104,6 +107,7 @@ pub(super) fn beside_updating(
         found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
     pruned(&likely, &mut found)?;
+    let likely = without_open(likely, &mut found)?;
     Ok(Ok(Outcome { reference: likely, found }))
 }
 
@@ -250,4 +254,35 @@ fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<(), Diagnosis
         found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
     }
     Ok(())
+}
+
+/// The model without the effects of the last set of a search that have a parameter which the data do not know, and without which what
+/// corrections do instead has no less evidence: the model is settled beside the others, for corrections beside the whole set are not
+/// those beside fewer.
+fn without_open<'a>(reference: ReferenceModel<'a>, found: &mut Found) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    let mut reference = reference;
+    while let Some(best) = found.by_size.last().map(|sets| sets.fits[0].clone()).filter(|fit| fit.effects.len() > 1) {
+        let open = |k: &usize| is_open(&best.deviations[*k], &best.effects[*k]);
+        let Some(k) = (0..best.effects.len()).find(open).filter(|_| !reference.control.is_late()) else { break };
+        let mut fewer = best.effects.clone();
+        fewer.remove(k);
+        let own = reference.with_scales(reference.linearisation.updating.scales);
+        let begun = own.estimator().fit(&fewer, REFITTED, &SEARCH, &best.starts)?;
+        let Some(weighed) = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])? else { break };
+        if weighed.least > cost(&reference, Some(&best)) + EVIDENCE || weighed.fits[0].effects.len() != fewer.len() {
+            break;
+        }
+        found.by_size.pop();
+        found.by_size.retain(|sets| sets.fits[0].effects.len() < fewer.len());
+        let first = &weighed.fits[0];
+        found.agrees = agrees(&weighed.reference, first.chi_square, first.parameters);
+        found.by_size.push(FittedSets {
+            scale: scale_of(&weighed.fits, weighed.reference.count()),
+            noise: weighed.reference.noise.clone(),
+            fits: weighed.fits,
+            probabilities: weighed.probabilities,
+        });
+        reference = weighed.reference;
+    }
+    Ok(reference)
 }

@@ -52,6 +52,8 @@ const LIGHT: f64 = 300.0;
 /// Squared residual per datum of the best from which on candidates within so many times what it leaves are weighed too.
 const COARSE: f64 = 3.0;
 const HEAVY: f64 = 2.0;
+/// Share of the error of the first that another leaves where it comes before it.
+const NEARER: f64 = 0.4;
 /// Candidates whose scales are estimated.
 const WEIGHED: usize = 6;
 /// Laws that the best may have been taken for which are weighed, and rounds in which model and law are settled for each.
@@ -78,8 +80,9 @@ pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Op
     all.extend(fresh);
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     simplest_first(&mut all);
+    let unit = nearest_first(&mut all);
     for _ in 0..FINISHED.min(all.len()) {
-        let probabilities = probabilities_of(&all);
+        let probabilities = probabilities_of(&all, unit);
         let Candidate { reference, fit, .. } = all.remove(0);
         let (reference, mut fit) = finished(reference, fit)?;
         fit.error = error_of(&reference, &fit)?;
@@ -231,12 +234,33 @@ fn simplest_first(all: &mut [Candidate]) {
     }
 }
 
+/// Puts the candidate first that comes nearest to the measurement, where what the first leaves is no noise. Returns the squared residual
+/// per datum in units of which predictions are weighed: one, but of what is no noise all that the first leaves.
+fn nearest_first(all: &mut [Candidate]) -> f64 {
+    let Some(first) = all.first() else { return 1.0 };
+    let left = first.fit.chi_square / first.reference.count() as f64;
+    let errors: Vec<f64> = all.iter().map(|c| c.fit.error).collect();
+    let Some(k) = nearer(left, &errors) else { return 1.0 };
+    all[..=k].rotate_right(1);
+    left
+}
+
+/// Which of candidates with these errors, as `compare` shows them, comes before the first, which leaves so much of the squared residual
+/// per datum. What is an error of the model is weighed by evidence as if it were noise: with all scales at their bounds, corrections and
+/// what is free from run to run make any law fit.
+fn nearer(left: f64, errors: &[f64]) -> Option<usize> {
+    let first = errors.first().filter(|_| left > COARSE)?;
+    let nearest = (1..errors.len()).min_by(|&a, &b| errors[a].total_cmp(&errors[b]))?;
+    (errors[nearest] < NEARER * first).then_some(nearest)
+}
+
 /// Probability of each candidate: by how it predicts, and by the share of what its parameters might have been that explains the
 /// data. A neighbour of the first that predicts as well shares with it, the less the more closely its parameters had to be
 /// chosen; what contains the first and predicts the same, or has a parameter that the data do not know, is the first by another
-/// name.
-fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
-    let densities: Vec<Vec<f64>> = all.iter().map(|c| c.densities.clone()).collect();
+/// name. Logarithms of densities count in units of `unit`.
+fn probabilities_of(all: &[Candidate], unit: f64) -> Vec<f64> {
+    let of = |c: &Candidate| c.densities.iter().map(|density| density / unit).collect();
+    let densities: Vec<Vec<f64>> = all.iter().map(of).collect();
     let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::posing(&c.fit);
     let mut list = probabilities(&densities, &all.iter().map(prior).collect::<Vec<f64>>());
     let Some(first) = all.first() else { return list };
@@ -252,7 +276,7 @@ fn probabilities_of(all: &[Candidate]) -> Vec<f64> {
 }
 
 /// Whether an effect has a parameter that the data do not know, which may as well be at a limit.
-fn is_open(deviations: &[f64], source: &Source) -> bool {
+pub(super) fn is_open(deviations: &[f64], source: &Source) -> bool {
     source.parameters.iter().zip(deviations).any(|(p, d)| d.is_nan() || *d >= VOID * p.abs())
 }
 
@@ -327,4 +351,18 @@ pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64
         None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),
     };
     fit + reference.noise.cost()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearer;
+
+    #[test]
+    fn evidence_orders_what_leaves_noise_and_the_error_what_leaves_more() {
+        let errors = [0.6, 0.09, 0.16];
+        assert_eq!(nearer(1.2, &errors), None);
+        assert_eq!(nearer(40.0, &errors), Some(1));
+        assert_eq!(nearer(40.0, &[0.6, 0.3]), None);
+        assert_eq!(nearer(40.0, &[0.6]), None);
+    }
 }
