@@ -8,6 +8,7 @@ mod factor;
 mod fourier;
 mod lanes;
 mod product;
+mod rows;
 mod singular;
 mod small;
 mod sparse;
@@ -18,6 +19,7 @@ pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, t
 pub use fourier::RealTransform;
 pub use lanes::{LANES, dot, sum};
 pub use product::{product, product_transposed, transposed_product};
+pub use rows::{add_product_to_rows, add_to_rows, combine_rows, stride, turn_rows};
 pub use singular::thin_svd;
 pub use small::RowLu;
 pub use sparse::{SparseCholesky, SparseSymmetric};

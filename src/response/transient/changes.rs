@@ -11,14 +11,14 @@
 //! int_0^h e^(a (h - t)) int_0^t e^(b (t - s)) (s / T)^k ds dt = k! h^2 (h / T)^k phi_k+1[a h, b h]
 //! ```
 //!
-//! One real matrix made beforehand gives it for all parameters at once. Over a piece of a step, next to a reversal of friction, with
+//! One real table made beforehand gives it for all parameters at once. Over a piece of a step, next to a reversal of friction, with
 //! `g` taken as linear between the ends of the piece.
 
 use super::exponentials::{FUNCTIONS, divided};
 use super::hold::{ORDERS, Polynomial, value};
 use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
-use dashpot_numerics::add_product;
+use dashpot_numerics::{add_product_to_rows, stride};
 use faer::c64;
 
 /// Forces within one step.
@@ -29,15 +29,15 @@ pub(super) struct StepForces<'a> {
     pub drives: &'a [Polynomial],
 }
 
-/// Changes of the linear part by several parameters.
+/// Changes of the linear part by several parameters, which are the first of those by which a march is differentiated.
 pub(super) struct Changes {
-    /// What a full step adds, over the state, the forces of elements and the coefficients of the drives, column by column.
+    /// Length of the rows of the parameters.
+    columns: usize,
+    /// What a full step adds to each entry of a state, over the state, the forces of elements and the coefficients of the drives; a row of
+    /// the parameters each.
     full: Vec<f64>,
-    /// `g` over the state and the forces.
+    /// `g` over the state and the forces, laid out alike.
     rates: Vec<f64>,
-    /// What the last step added, one flat state a parameter.
-    pub added: Vec<f64>,
-    width: usize,
     inputs: Vec<f64>,
     ends: [Vec<f64>; 2],
 }
@@ -52,66 +52,90 @@ impl Changes {
     ) -> Self {
         let count = system.lambda.len();
         let full_step = FullStep::new(system, step, list.is_empty());
-        let (mut full, mut rates) = (Vec::new(), Vec::new());
-        for column in 0..2 * count {
-            let (j, z) = (column % count, if column < count { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) });
-            for change in list {
+        let (states, columns) = (2 * count, stride(list.len()));
+        let [mut full, mut rates] = [elements + ORDERS * drives, elements + drives]
+            .map(|inputs| Table::new([states, states + inputs, columns]));
+        for (c, change) in list.iter().enumerate() {
+            for column in 0..states {
+                let (j, z) = (column % count, if column < count { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) });
                 let rate = |k: usize| change.direct[k * count + j] * z + change.conjugate[k * count + j] * z.conj();
-                flatten(&(0..count).map(rate).collect::<Vec<c64>>(), &mut rates);
-                flatten(&full_step.of_state(change, j, z), &mut full);
+                rates.set(column, c, &(0..count).map(rate).collect::<Vec<c64>>());
+                full.set(column, c, &full_step.of_state(change, j, z));
             }
-        }
-        for input in 0..elements + drives {
-            for change in list {
-                flatten(&change.inputs[input], &mut rates);
-            }
-            for power in 0..if input < elements { 1 } else { ORDERS } {
-                for change in list {
-                    flatten(&full_step.of_input(change, input, power), &mut full);
+            for input in 0..elements + drives {
+                rates.set(states + input, c, &change.inputs[input]);
+                let powers = if input < elements { 1 } else { ORDERS };
+                let first = states + if input < elements { input } else { elements + ORDERS * (input - elements) };
+                for power in 0..powers {
+                    full.set(first + power, c, &full_step.of_input(change, input, power));
                 }
             }
         }
-        let width = 2 * count;
-        Self { full, rates, added: vec![0.0; width * list.len()], width, inputs: Vec::new(), ends: Default::default() }
+        Self { columns, full: full.entries, rates: rates.entries, inputs: Vec::new(), ends: Default::default() }
     }
 
     /// Whether there are none.
     pub(super) fn is_empty(&self) -> bool {
-        self.added.is_empty()
+        self.columns == 0
     }
 
-    /// What a full step from the state `z` adds, into [`Self::added`].
-    pub(super) fn over_full_step(&mut self, z: &[f64], forces: &StepForces) {
+    /// Adds what a full step from the state `z` gives to `rows` of derivatives, each `stride` long.
+    pub(super) fn over_full_step(&mut self, z: &[f64], forces: &StepForces, rows: &mut [f64], stride: usize) {
         self.inputs.clear();
         self.inputs.extend_from_slice(z);
         self.inputs.extend_from_slice(forces.elements);
         self.inputs.extend(forces.drives.iter().flatten());
-        self.added.fill(0.0);
-        add_product(&self.full, &self.inputs, &mut self.added);
+        add_product_to_rows(&self.full, &self.inputs, self.columns, rows, stride);
     }
 
-    /// What a piece of a step between two states adds, into [`Self::added`].
-    pub(super) fn over_piece(&mut self, step: &Step, states: [&[f64]; 2], forces: &StepForces) {
+    /// Adds what a piece of a step between two states gives.
+    pub(super) fn over_piece(
+        &mut self,
+        step: &Step,
+        states: [&[f64]; 2],
+        forces: &StepForces,
+        (rows, stride): (&mut [f64], usize),
+    ) {
+        let (width, columns) = (states[0].len(), self.columns);
         for ((z, s), g) in states.into_iter().zip([0.0, step.share()]).zip(&mut self.ends) {
             self.inputs.clear();
             self.inputs.extend_from_slice(z);
             self.inputs.extend_from_slice(forces.elements);
             self.inputs.extend(forces.drives.iter().map(|drive| value(drive, s)));
             g.clear();
-            g.resize(self.added.len(), 0.0);
-            add_product(&self.rates, &self.inputs, g);
+            g.resize(width * columns, 0.0);
+            add_product_to_rows(&self.rates, &self.inputs, columns, g, columns);
         }
-        let half = self.width / 2;
+        let half = width / 2;
         let rising = step.share().recip();
-        for (c, added) in self.added.chunks_exact_mut(self.width).enumerate() {
-            for k in 0..half {
-                let state_at = |end: usize| {
-                    c64::new(self.ends[end][c * self.width + k], self.ends[end][c * self.width + half + k])
-                };
-                let [start, end] = [state_at(0), state_at(1)];
+        for k in 0..half {
+            for c in 0..columns {
+                let state_at = |g: &Vec<f64>| c64::new(g[k * columns + c], g[(half + k) * columns + c]);
+                let [start, end] = [state_at(&self.ends[0]), state_at(&self.ends[1])];
                 let sum = step.powers[0][k] * start + step.powers[1][k] * (end - start) * rising;
-                (added[k], added[half + k]) = (sum.re, sum.im);
+                rows[k * stride + c] += sum.re;
+                rows[(half + k) * stride + c] += sum.im;
             }
+        }
+    }
+}
+
+/// Numbers over entries of a state, inputs and parameters.
+struct Table {
+    entries: Vec<f64>,
+    inputs: usize,
+    columns: usize,
+}
+
+impl Table {
+    fn new([states, inputs, columns]: [usize; 3]) -> Self {
+        Self { entries: vec![0.0; states * inputs * columns], inputs, columns }
+    }
+
+    /// What `input` does to a state, by parameter `c`.
+    fn set(&mut self, input: usize, c: usize, state: &[c64]) {
+        for (i, x) in state.iter().map(|z| z.re).chain(state.iter().map(|z| z.im)).enumerate() {
+            self.entries[(i * self.inputs + input) * self.columns + c] = x;
         }
     }
 }
@@ -160,9 +184,4 @@ impl<'a> FullStep<'a> {
         };
         (0..count).map(sum).collect()
     }
-}
-
-fn flatten(list: &[c64], into: &mut Vec<f64>) {
-    into.extend(list.iter().map(|z| z.re));
-    into.extend(list.iter().map(|z| z.im));
 }

@@ -1,10 +1,10 @@
-//! The derivatives of the state by all parameters, one flat state behind the other, carried through the same steps as the
-//! state itself.
+//! The derivatives of the state by all parameters, side by side ([`dashpot_numerics::combine_rows`]), carried through the same steps as
+//! the state itself. Parameters that change the linear part come first.
 
 use super::changes::{Changes, StepForces};
 use super::element::{Element, Form, Mean};
 use super::view::{Piece, Receptance, Sensitivity, View};
-use dashpot_numerics::{RowLu, dot, scalar_products};
+use dashpot_numerics::{RowLu, add_to_rows, combine_rows, stride};
 
 /// The jump of a friction force at a reversal, to be felt by the derivatives in the next piece of the step.
 struct Jump {
@@ -16,86 +16,96 @@ struct Jump {
 
 /// Derivatives by all parameters.
 pub(super) struct Derivatives {
-    /// States, one behind the other.
+    /// Number of each parameter where they were asked for, in the order in which they stand here.
+    pub order: Vec<usize>,
+    /// Length of the rows.
+    pub stride: usize,
+    /// States, a row of all parameters for each entry.
     pub states: Vec<f64>,
-    /// Derivatives of the forces of the elements over the last step, elements of the first parameter first.
+    /// Derivatives of the forces of the elements over the last step, a row an element.
     pub forces: Vec<f64>,
     /// Number of each parameter among those of the law of each element, where it is one of them: `[element][parameter]`.
     pub own: Vec<Vec<Option<usize>>>,
-    /// Number of the change of the linear part of each parameter.
-    pub changed: Vec<Option<usize>>,
     changes: Changes,
-    width: usize,
-    /// What the elements see, displacements and then velocities, row by row.
-    displacements: Vec<f64>,
-    velocities: Vec<f64>,
     jump: Option<Jump>,
+    /// What the elements see: displacements at the start of a step, displacements and velocities at its end without what their forces
+    /// change, a row an element.
     starts: Vec<f64>,
     seen: [Vec<f64>; 2],
-    explicit: Vec<Vec<f64>>,
+    explicit: Vec<f64>,
+    means: Vec<Mean>,
     on_structure: Vec<f64>,
-    moved: Vec<f64>,
+    row: Vec<f64>,
 }
 
 impl Derivatives {
-    pub(super) fn new(
-        views: &[View],
-        elements: &[Element],
-        list: Vec<Sensitivity>,
-        changes: Changes,
-        width: usize,
-    ) -> Self {
+    /// Of states `width` numbers long.
+    pub(super) fn new(elements: &[Element], list: &[Sensitivity], changes: Changes, width: usize) -> Self {
+        let (mut order, others): (Vec<usize>, Vec<usize>) = (0..list.len()).partition(|&k| list[k].changes_linear_part);
+        order.extend(others);
         let own_of = |element: &Element| {
             let own_parameter = |s: &Sensitivity| s.own.filter(|(source, _)| *source == element.source).map(|(_, k)| k);
-            list.iter().map(own_parameter).collect::<Vec<Option<usize>>>()
+            order.iter().map(|&k| own_parameter(&list[k])).collect::<Vec<Option<usize>>>()
         };
+        let (stride, count) = (stride(list.len()), elements.len());
+        let mut states = vec![0.0; stride * width];
+        for (p, &k) in order.iter().enumerate() {
+            states.chunks_exact_mut(stride).zip(&list[k].state).for_each(|(row, x)| row[p] = *x);
+        }
+        let rows = || vec![0.0; stride * count];
         Self {
             own: elements.iter().map(own_of).collect(),
-            forces: vec![0.0; list.len() * elements.len()],
-            explicit: vec![vec![0.0; list.len()]; elements.len()],
-            moved: vec![0.0; list.len()],
-            changed: list.iter().map(|s| s.change).collect(),
-            states: list.into_iter().flat_map(|s| s.state).collect(),
-            changes,
-            width,
-            displacements: views.iter().flat_map(|v| v.displacement.iter().copied()).collect(),
-            velocities: views.iter().flat_map(|v| v.velocity.iter().copied()).collect(),
+            forces: rows(),
+            explicit: rows(),
+            starts: rows(),
+            seen: [rows(), rows()],
+            means: Vec::with_capacity(count),
+            on_structure: Vec::with_capacity(count),
+            row: vec![0.0; stride],
             jump: None,
-            starts: Vec::new(),
-            seen: Default::default(),
-            on_structure: Vec::new(),
+            order,
+            stride,
+            states,
+            changes,
         }
     }
 
     /// Number of parameters.
     pub(super) fn len(&self) -> usize {
-        self.changed.len()
+        self.order.len()
     }
 
-    /// The derivative of the state by a parameter.
-    pub(super) fn state(&self, theta: usize) -> &[f64] {
-        &self.states[theta * self.width..(theta + 1) * self.width]
+    /// Adds `factor` times what a view sees of the states to a row.
+    pub(super) fn add_seen(&mut self, view: &[f64], factor: f64, row: &mut [f64]) {
+        combine_rows(view, &self.states, &mut self.row);
+        row.iter_mut().zip(&self.row).for_each(|(row, seen)| *row += factor * seen);
     }
 
-    /// Tells element `l` that it has come to `d` in a step of `step` s.
-    pub(super) fn commit(&mut self, l: usize, element: &mut Element, d: f64, step: f64) {
+    /// Row `l` of a list of rows.
+    fn at(&self, l: usize) -> std::ops::Range<usize> {
+        l * self.stride..(l + 1) * self.stride
+    }
+
+    /// Tells element `l`, which sees `view`, that it has come to `d` in a step of `step` s.
+    pub(super) fn commit(&mut self, l: usize, (element, view): (&mut Element, &View), d: f64, step: f64) {
         if element.form == Form::Smooth || element.form == Form::Friction {
             return;
         }
-        let view = &self.displacements[l * self.width..(l + 1) * self.width];
-        for (theta, moved) in self.moved.iter_mut().enumerate() {
-            *moved = dot(view, &self.states[theta * self.width..(theta + 1) * self.width]);
-        }
-        element.commit(d, step, &self.moved, &self.own[l]);
+        combine_rows(&view.displacement, &self.states, &mut self.row);
+        element.commit(d, step, &self.row[..self.order.len()], &self.own[l]);
     }
 
     /// Notes that the slip of `element` has ended at the present instant with this acceleration.
     pub(super) fn turned(&mut self, element: usize, view: &View, forces: &[f64], acceleration: f64) {
-        let when = |theta: usize| {
-            if acceleration == 0.0 { 0.0 } else { -dot(&view.velocity, self.state(theta)) / acceleration }
-        };
-        let when: Vec<f64> = (0..self.len()).map(when).collect();
-        self.jump = (!when.is_empty()).then(|| Jump { element, before: forces[element], when });
+        if self.order.is_empty() {
+            return;
+        }
+        let mut when = vec![0.0; self.stride];
+        if acceleration != 0.0 {
+            combine_rows(&view.velocity, &self.states, &mut when);
+            when.iter_mut().for_each(|when| *when /= -acceleration);
+        }
+        self.jump = Some(Jump { element, before: forces[element], when });
     }
 
     /// Derivatives of the state and of the forces over a piece of a step; `patterns` are the modal patterns of the inputs.
@@ -107,15 +117,17 @@ impl Derivatives {
         patterns: &[Vec<f64>],
         receptance: &Receptance,
     ) {
-        if self.changed.is_empty() {
+        if self.order.is_empty() {
             return;
         }
-        let (count, width) = (elements.len(), self.width);
         self.jump_on(piece, patterns);
-        scalar_products(&self.displacements, &self.states, width, &mut self.starts);
-        piece.step.decay(&mut self.states);
+        let stride = self.stride;
+        for (view, starts) in views.iter().zip(self.starts.chunks_exact_mut(stride)) {
+            combine_rows(&view.displacement, &self.states, starts);
+        }
+        piece.step.decay_rows(&mut self.states);
         self.change(piece);
-        if count == 0 {
+        if elements.is_empty() {
             return;
         }
         let own;
@@ -125,46 +137,59 @@ impl Derivatives {
             own = Receptance::new(views, piece.step);
             &own
         };
-        let means = self.means(piece, elements);
+        self.change_means(piece, elements);
         let held = |l: usize| elements[l].form == Form::Friction && piece.side[l] == 0.0;
-        let matrix = (0..count * count).map(|at| {
-            let (l, k) = (at / count, at % count);
-            let unit = f64::from(u8::from(l == k));
-            if held(l) { w.velocity[at] } else { unit + means[l].by_step * w.displacement[at] }
-        });
-        let Some(solver) = RowLu::new(count, matrix.collect()) else { return };
-        let [displacement, velocity] = &mut self.seen;
-        scalar_products(&self.displacements, &self.states, width, displacement);
-        scalar_products(&self.velocities, &self.states, width, velocity);
-        for theta in 0..self.changed.len() {
-            let rhs = &mut self.forces[theta * count..(theta + 1) * count];
-            for (l, force) in rhs.iter_mut().enumerate() {
-                let at = theta * count + l;
-                *force = if held(l) {
-                    velocity[at]
-                } else {
-                    let moved = displacement[at] - self.starts[at];
-                    means[l].by_step * moved + means[l].by_start * self.starts[at] + self.explicit[l][theta]
-                };
+        let Some(inverse) = inverse(&self.means, w, &held) else { return };
+        let [displacements, velocities] = &mut self.seen;
+        for (l, view) in views.iter().enumerate() {
+            let row = l * stride..(l + 1) * stride;
+            combine_rows(&view.displacement, &self.states, &mut displacements[row.clone()]);
+            combine_rows(&view.velocity, &self.states, &mut velocities[row]);
+        }
+        for l in 0..views.len() {
+            self.ask(l, held(l));
+        }
+        self.answer(&inverse);
+        for l in 0..views.len() {
+            self.row.iter_mut().zip(&self.forces[l * stride..]).for_each(|(row, force)| *row = -force);
+            add_to_rows(piece.step.unit(l), &self.row, &mut self.states);
+        }
+    }
+
+    /// What element `l` asks of its force without what the forces themselves change: that no velocity is left where friction holds it.
+    /// It takes the place of what the element sees.
+    fn ask(&mut self, l: usize, held: bool) {
+        let at = self.at(l);
+        let Mean { by_step, by_start, .. } = self.means[l];
+        let [displacements, velocities] = &mut self.seen;
+        let asked = &mut displacements[at.clone()];
+        if held {
+            asked.copy_from_slice(&velocities[at]);
+            return;
+        }
+        let known = self.starts[at.clone()].iter().zip(&self.explicit[at]);
+        for (asked, (start, explicit)) in asked.iter_mut().zip(known) {
+            *asked = by_step * (*asked - start) + by_start * start + explicit;
+        }
+    }
+
+    /// Forces by the inverse of what they do to each other, row by row.
+    fn answer(&mut self, inverse: &[f64]) {
+        let (stride, count) = (self.stride, self.means.len());
+        self.forces.fill(0.0);
+        for (forces, inverse) in self.forces.chunks_exact_mut(stride).zip(inverse.chunks_exact(count)) {
+            for (asked, factor) in self.seen[0].chunks_exact(stride).zip(inverse) {
+                forces.iter_mut().zip(asked).for_each(|(force, asked)| *force += factor * asked);
             }
-            if count == 1 && !held(0) {
-                rhs[0] /= 1.0 + means[0].by_step * w.displacement[0];
-            } else {
-                solver.solve(rhs);
-            }
-            let state = &mut self.states[theta * width..(theta + 1) * width];
-            rhs.iter().enumerate().for_each(|(l, force)| piece.step.push(l, -force, state));
         }
     }
 
     /// What the jump of a friction force has done.
     fn jump_on(&mut self, piece: &Piece, patterns: &[Vec<f64>]) {
-        let Some(jump) = self.jump.take() else { return };
-        let beta = &patterns[jump.element];
-        for (state, when) in self.states.chunks_exact_mut(self.width).zip(&jump.when) {
-            let size = (piece.forces[jump.element] - jump.before) * when;
-            state.iter_mut().zip(beta).for_each(|(s, b)| *s += b * size);
-        }
+        let Some(mut jump) = self.jump.take() else { return };
+        let size = piece.forces[jump.element] - jump.before;
+        jump.when.iter_mut().for_each(|when| *when *= size);
+        add_to_rows(&patterns[jump.element], &jump.when, &mut self.states);
     }
 
     /// What changes of the linear part do.
@@ -176,27 +201,45 @@ impl Derivatives {
         self.on_structure.extend(piece.forces.iter().map(|f| -f));
         let forces = StepForces { elements: &self.on_structure, drives: piece.drives };
         if piece.full {
-            self.changes.over_full_step(piece.states[0], &forces);
+            self.changes.over_full_step(piece.states[0], &forces, &mut self.states, self.stride);
         } else {
-            self.changes.over_piece(piece.step, piece.states, &forces);
-        }
-        for (state, change) in self.states.chunks_exact_mut(self.width).zip(&self.changed) {
-            if let Some(c) = change {
-                let added = &self.changes.added[c * self.width..(c + 1) * self.width];
-                state.iter_mut().zip(added).for_each(|(s, a)| *s += a);
-            }
+            self.changes.over_piece(piece.step, piece.states, &forces, (&mut self.states, self.stride));
         }
     }
 
     /// Slopes of the mean forces, and their derivatives by the parameters at a fixed motion.
-    fn means(&mut self, piece: &Piece, elements: &mut [Element]) -> Vec<Mean> {
-        let mut means = Vec::with_capacity(elements.len());
+    fn change_means(&mut self, piece: &Piece, elements: &mut [Element]) {
+        self.means.clear();
         for (l, element) in elements.iter_mut().enumerate() {
             let (d, side, step) = (piece.before[l], piece.side[l], piece.step.length);
             let x = piece.after[l] - d;
-            means.push(element.mean(d, x, step, side));
-            element.by_parameters([d, x, step, side], &self.own[l], &mut self.explicit[l]);
+            self.means.push(element.mean(d, x, step, side));
+            let explicit = &mut self.explicit[l * self.stride..][..self.order.len()];
+            element.by_parameters([d, x, step, side], &self.own[l], explicit);
         }
-        means
     }
+}
+
+/// Inverse, row by row, of what the forces of elements do to what each of them asks; none where it is singular.
+fn inverse(means: &[Mean], w: &Receptance, held: &dyn Fn(usize) -> bool) -> Option<Vec<f64>> {
+    let count = means.len();
+    let entry = |at: usize| {
+        let (l, k) = (at / count, at % count);
+        let unit = f64::from(u8::from(l == k));
+        if held(l) { w.velocity[at] } else { unit + means[l].by_step * w.displacement[at] }
+    };
+    if count == 1 {
+        let inverse = entry(0).recip();
+        return inverse.is_finite().then(|| vec![inverse]);
+    }
+    let solver = RowLu::new(count, (0..count * count).map(entry).collect())?;
+    let mut inverse = vec![0.0; count * count];
+    let mut column = vec![0.0; count];
+    for k in 0..count {
+        column.fill(0.0);
+        column[k] = 1.0;
+        solver.solve(&mut column);
+        column.iter().enumerate().for_each(|(l, x)| inverse[l * count + k] = *x);
+    }
+    Some(inverse)
 }

@@ -69,10 +69,10 @@ impl<'a> March<'a> {
         let receptance = Receptance::new(views, &step);
         let side = views.iter().map(|view| sign(dot(&view.velocity, &z))).collect();
         let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
-        let mut derivatives = Derivatives::new(views, &elements, sensitivities, changes, z.len());
+        let mut derivatives = Derivatives::new(&elements, &sensitivities, changes, z.len());
         for (l, (element, view)) in elements.iter_mut().zip(views).enumerate() {
             // A law with memory comes from rest to where the record begins.
-            derivatives.commit(l, element, dot(&view.displacement, &z), f64::INFINITY);
+            derivatives.commit(l, (element, view), dot(&view.displacement, &z), f64::INFINITY);
         }
         let forces = vec![0.0; elements.len()];
         Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }
@@ -262,7 +262,7 @@ impl<'a> March<'a> {
             if slipped && dot(&self.views[l].velocity, &self.z) * side[l] <= 0.0 {
                 self.side[l] = 0.0;
             }
-            self.derivatives.commit(l, &mut self.elements[l], after[l], step.length);
+            self.derivatives.commit(l, (&mut self.elements[l], &self.views[l]), after[l], step.length);
         }
         if let Some(element) = turned {
             self.side[element] = 0.0;

@@ -1,6 +1,7 @@
 //! The model of a record: built once for a structure with its sources, predicted for any force and initial state.
 
 use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear, pattern_matrix};
+use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
 use super::hold::{Hold, Polynomial, shifted};
@@ -9,10 +10,10 @@ use super::reduction::Reduction;
 use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
 use super::system::{LinearChange, LinearSystem, Matrices};
 use super::view::{Sensitivity, View};
-use super::writer::{Sensor, Writer, beyond_mean};
+use super::writer::{Seen, Sensor, Writer};
 use crate::effects::Leg;
 use crate::measurement::{Channel, Quantity};
-use dashpot_numerics::{dot, scalar_products};
+use dashpot_numerics::dot;
 use faer::Mat;
 
 /// A model that predicts records.
@@ -112,16 +113,20 @@ impl TransientModel {
         let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
         let mut modal = self.no_modal(parameters, forces.samples);
         let mut drives = vec![Polynomial::default(); held.len()];
-        let mut u = vec![0.0; held.len()];
+        let mut inputs = vec![0.0; self.legs.len() + held.len()];
         for n in 0..forces.samples {
             for k in 0..if n == 0 { 0 } else { substeps } {
                 let s = k as f64 / substeps as f64;
-                drives.iter_mut().zip(&held).for_each(|(drive, list)| *drive = shifted(&list[n - 1], s));
+                let from = |drive: &Polynomial| if k == 0 { *drive } else { shifted(drive, s) };
+                drives.iter_mut().zip(&held).for_each(|(drive, list)| *drive = from(&list[n - 1]));
                 march.advance(&drives)?;
             }
-            u.iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
+            inputs[self.legs.len()..].iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
             writer.moved = n > 0;
-            let inputs = self.write(&mut march, &mut writer, &u, &mut channels, &mut derivatives);
+            self.write(&march, &mut writer, &mut inputs, &mut channels);
+            if !derivatives.is_empty() {
+                self.write_derivatives(&mut march, &mut writer, &inputs, &mut derivatives);
+            }
             writer.write_modal(&march, &inputs, &mut modal);
         }
         if !march.z.iter().all(|z| z.is_finite()) {
@@ -180,18 +185,18 @@ impl TransientModel {
         let mut changes: Vec<LinearChange> = Vec::new();
         let mut sensitivities = Vec::new();
         for parameter in parameters {
-            let change = self.change(*parameter).map(|change| {
-                changes.push(change);
-                changes.len() - 1
-            });
+            let change = self.change(*parameter);
+            let changes_linear_part = change.is_some();
+            changes.extend(change);
             let state = self.initial_derivative(*parameter, initial.len(), drives);
             let own = match *parameter {
                 TransientParameter::Source { source, parameter } => Some((source, parameter)),
                 _ => None,
             };
-            sensitivities.push(Sensitivity { state, own, change });
+            sensitivities.push(Sensitivity { state, own, changes_linear_part });
         }
-        let writer = Writer::new(&self.system, &self.sensors, [elements.len(), self.kept()], &changes, steps);
+        let widths = [elements.len(), self.kept(), parameters.len()];
+        let writer = Writer::new(&self.system, &self.sensors, widths, &changes, steps);
         let from = (state, drives.len());
         (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), steps), writer)
     }
@@ -223,75 +228,74 @@ impl TransientModel {
         self.changes.iter().find(|(p, _)| *p == parameter).map(|(_, by)| self.system.change(by))
     }
 
-    /// What the channels show at the present sample under the drives `u`; the inputs of the linear part there.
-    fn write(
+    /// What the channels show at the present sample under `inputs`, of which the forces of elements are filled in.
+    fn write(&self, march: &March, writer: &mut Writer, inputs: &mut [f64], channels: &mut [Vec<f64>]) {
+        let count = march.elements.len();
+        writer.seen.clear();
+        for (l, view) in self.views.iter().enumerate() {
+            let motion = [dot(&view.displacement, &march.z), dot(&view.velocity, &march.z)];
+            let [force, by_d, by_v] = march.elements[l].instant(motion[0], motion[1], march.side[l], march.forces[l]);
+            inputs[l] = -force;
+            writer.seen.push(Seen { motion, slopes: [by_d, by_v] });
+        }
+        writer.set_beyond(inputs, &march.forces);
+        for (c, (sensor, list)) in self.sensors.iter().zip(channels).enumerate() {
+            list.push(if let Some(drive) = sensor.drive {
+                inputs.get(count.saturating_add(drive)).copied().unwrap_or(0.0)
+            } else {
+                let seen = dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, inputs);
+                seen + writer.late(c)
+            });
+        }
+    }
+
+    /// Their derivatives.
+    fn write_derivatives(
         &self,
         march: &mut March,
         writer: &mut Writer,
-        u: &[f64],
-        channels: &mut [Vec<f64>],
+        inputs: &[f64],
         derivatives: &mut [Vec<Vec<f64>>],
-    ) -> Vec<f64> {
-        let count = march.elements.len();
-        let motion: Vec<[f64; 2]> =
-            self.views.iter().map(|v| [dot(&v.displacement, &march.z), dot(&v.velocity, &march.z)]).collect();
-        let mut inputs = vec![0.0; count + u.len()];
-        let mut slopes = Vec::with_capacity(count);
-        for l in 0..count {
-            let [force, by_d, by_v] =
-                march.elements[l].instant(motion[l][0], motion[l][1], march.side[l], march.forces[l]);
-            inputs[l] = -force;
-            slopes.push([by_d, by_v]);
+    ) {
+        let March { elements, derivatives: by, side, z, .. } = march;
+        for l in 0..elements.len() {
+            let seen = writer.seen[l];
+            self.force_change((l, &mut elements[l]), by, (seen, side[l]), writer.force_row(l));
         }
-        inputs[count..].copy_from_slice(u);
-        let beyond = beyond_mean(&inputs, march);
-        for (c, (sensor, list)) in self.sensors.iter().zip(channels).enumerate() {
-            list.push(if let Some(drive) = sensor.drive {
-                u.get(drive).copied().unwrap_or(0.0)
-            } else {
-                let seen = dot(&sensor.functional.row, &march.z) + dot(&sensor.functional.inputs, &inputs);
-                seen + writer.late(c, &beyond)
-            });
-        }
-        if derivatives.is_empty() {
-            return inputs;
-        }
-        writer.changed(&march.z, &inputs);
-        let width = march.z.len();
-        scalar_products(&writer.sensors, &march.derivatives.states, width, &mut writer.seen);
-        let sensors = self.sensors.len();
-        let (mut pushes, mut beyond) = (vec![0.0; count], vec![0.0; count]);
-        for (theta, lists) in derivatives.iter_mut().enumerate() {
-            for l in 0..count {
-                pushes[l] = -self.force_change(march, theta, l, motion[l], slopes[l]);
-                beyond[l] = pushes[l] + march.derivatives.forces[theta * count + l];
-            }
-            for (c, (sensor, list)) in self.sensors.iter().zip(lists).enumerate() {
-                if sensor.drive.is_some() {
-                    list.push(0.0);
-                    continue;
-                }
-                let pushed: f64 = sensor.functional.inputs.iter().zip(&pushes).map(|(c, f)| c * f).sum();
-                let changed = march.derivatives.changed[theta].map_or(0.0, |k| writer.by_change[k * sensors + c]);
-                list.push(writer.seen[theta * sensors + c] + pushed + changed + writer.late(c, &beyond));
+        for (c, sensor) in self.sensors.iter().enumerate() {
+            let row = match sensor.drive {
+                Some(_) => None,
+                None => Some(writer.derivatives(c, sensor, by, (z, inputs))),
+            };
+            for (p, &theta) in by.order.iter().enumerate() {
+                derivatives[theta][c].push(row.map_or(0.0, |row| row[p]));
             }
         }
-        inputs
     }
 
-    /// Derivative of the present force of element `l`.
-    fn force_change(&self, march: &mut March, theta: usize, l: usize, motion: [f64; 2], slopes: [f64; 2]) -> f64 {
-        let element = &mut march.elements[l];
-        if element.form == Form::Friction && march.side[l] == 0.0 {
-            return march.derivatives.forces[theta * self.views.len() + l];
+    /// Derivatives of the present force of element `l`.
+    fn force_change(
+        &self,
+        (l, element): (usize, &mut Element),
+        by: &mut Derivatives,
+        (seen, side): (Seen, f64),
+        row: &mut [f64],
+    ) {
+        if element.form == Form::Friction && side == 0.0 {
+            row.copy_from_slice(&by.forces[l * by.stride..(l + 1) * by.stride]);
+            return;
         }
-        let own = march.derivatives.own[l][theta];
-        let mut moved = 0.0;
-        if slopes != [0.0; 2] {
-            let (view, state) = (&self.views[l], march.derivatives.state(theta));
-            moved = slopes[0] * dot(&view.displacement, state) + slopes[1] * dot(&view.velocity, state);
+        row.fill(0.0);
+        let view = &self.views[l];
+        for (slope, view) in seen.slopes.into_iter().zip([&view.displacement, &view.velocity]) {
+            if slope != 0.0 {
+                by.add_seen(view, slope, row);
+            }
         }
-        moved + element.instant_by(theta, own, motion[0], motion[1], march.side[l])
+        let [d, v] = seen.motion;
+        for (p, row) in row.iter_mut().take(by.len()).enumerate() {
+            *row += element.instant_by(p, by.own[l][p], d, v, side);
+        }
     }
 }
 

@@ -9,7 +9,7 @@
 use super::exponentials::phi;
 use super::hold::{ORDERS, Polynomial};
 use super::system::LinearSystem;
-use dashpot_numerics::{dot, turn};
+use dashpot_numerics::{add_product, dot, turn, turn_rows};
 use faer::c64;
 
 /// Factors of one length of step.
@@ -68,9 +68,19 @@ impl Step {
         &self.pushes[at..at + width]
     }
 
-    /// `z <- e^(lambda h) z` of one state or of many.
+    /// `z <- e^(lambda h) z`.
     pub(super) fn decay(&self, z: &mut [f64]) {
         turn(&self.decay, z);
+    }
+
+    /// The same of many states, a row of each entry.
+    pub(super) fn decay_rows(&self, rows: &mut [f64]) {
+        turn_rows(&self.decay, rows);
+    }
+
+    /// What a constant unit force at an input does to a state.
+    pub(super) fn unit(&self, input: usize) -> &[f64] {
+        self.of(input, 0)
     }
 
     /// Adds what a constant `force` does at an input.
@@ -82,9 +92,9 @@ impl Step {
 
     /// Adds what a drive does.
     pub(super) fn drive(&self, input: usize, force: &Polynomial, z: &mut [f64]) {
-        for (power, c) in force.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-            z.iter_mut().zip(self.of(input, power)).for_each(|(z, p)| *z += p * c);
-        }
+        let width = self.decay.len();
+        let at = input * ORDERS * width;
+        add_product(&self.pushes[at..at + ORDERS * width], force, z);
     }
 
     /// What a force at an input that rises about zero, to 1 at the end, has done there, along a functional.

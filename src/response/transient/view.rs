@@ -17,8 +17,8 @@ pub(super) struct Sensitivity {
     pub state: Vec<f64>,
     /// Source and number of a parameter of a law.
     pub own: Option<(usize, usize)>,
-    /// Number of its change of the linear part.
-    pub change: Option<usize>,
+    /// Whether it changes the linear part.
+    pub changes_linear_part: bool,
 }
 
 /// Receptances between elements over a step, row by row.

@@ -1,9 +1,10 @@
 //! What channels show of the state at a sample.
 
+use super::derivatives::Derivatives;
 use super::march::March;
 use super::step::Step;
 use super::system::{Functional, LinearChange, LinearSystem};
-use dashpot_numerics::{dot, scalar_products};
+use dashpot_numerics::{combine_rows, dot, stride};
 
 /// What a channel shows.
 pub(super) struct Sensor {
@@ -16,96 +17,138 @@ pub(super) struct Sensor {
     pub drive: Option<usize>,
 }
 
+/// What an element sees at a sample: displacement (m) and velocity (m/s), with the slopes of its force by both.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub motion: [f64; 2],
+    pub slopes: [f64; 2],
+}
+
 /// What turns states into samples of the channels.
 pub(super) struct Writer {
-    /// Rows of the sensors, one behind the other.
-    pub sensors: Vec<f64>,
-    /// How accelerations change with each change of the linear part at a fixed state: rows on the state and on the inputs, a
-    /// sensor after the other, `width` numbers each.
-    changes: Vec<f64>,
-    width: usize,
+    /// How accelerations change with each change of the linear part at a fixed state: over the state and the inputs, a row of the
+    /// parameters each; empty for other sensors.
+    changes: Vec<Vec<f64>>,
     /// What a sensor shows too late of a unit by which the force of an element is beyond its mean over the step, one sensor after the
     /// other: modes that follow at once have come to rest under the mean.
     late: Vec<f64>,
     elements: usize,
     /// Whether a step lies behind.
     pub moved: bool,
+    /// What the elements see.
+    pub seen: Vec<Seen>,
+    /// By how much the force of every element on the structure is beyond its mean over the last step.
+    beyond: Vec<f64>,
+    /// Derivatives of the forces of the elements, a row an element.
+    by_force: Vec<f64>,
     state: Vec<f64>,
-    pub by_change: Vec<f64>,
-    pub seen: Vec<f64>,
+    row: Vec<f64>,
+    changed: Vec<f64>,
     /// What a channel of each order shows of each kept mode, and what it shows of it too late.
     modes: [Vec<(Functional, Vec<f64>)>; 3],
 }
 
 impl Writer {
-    /// Of a linear part under `elements` elements, whose first `kept` coordinates are kept modes; steps of `steps[0]` s, samples `steps[1]`
-    /// s apart.
+    /// Of a linear part under `elements` elements, whose first `kept` coordinates are kept modes, differentiated by some `parameters`; steps
+    /// of `steps[0]` s, samples `steps[1]` s apart.
     pub(super) fn new(
         system: &LinearSystem,
         sensors: &[Sensor],
-        [elements, kept]: [usize; 2],
+        [elements, kept, parameters]: [usize; 3],
         changes: &[LinearChange],
         steps: [f64; 2],
     ) -> Self {
         let step = Step::new(system, steps[0], steps[1]);
-        let width = 2 * system.lambda.len() + system.beta.len();
-        let mut rows = Vec::with_capacity(changes.len() * sensors.len() * width);
-        for change in changes {
-            for sensor in sensors {
-                match &sensor.pattern {
-                    Some(pattern) => {
-                        let Functional { row, inputs } = system.acceleration_change(pattern, change);
-                        rows.extend(row.iter().chain(&inputs));
-                    }
-                    None => rows.resize(rows.len() + width, 0.0),
-                }
-            }
-        }
         let late = |f: &Functional| (0..elements).map(|l| step.ramp(l, &f.row)).collect::<Vec<f64>>();
+        let stride_of_all = stride(parameters);
         Self {
-            sensors: sensors.iter().flat_map(|s| s.functional.row.iter().copied()).collect(),
-            changes: rows,
-            width,
+            changes: sensors.iter().map(|sensor| changes_seen(system, sensor, changes)).collect(),
             late: sensors.iter().flat_map(|s| late(&s.functional)).collect(),
             elements,
             moved: false,
+            seen: Vec::with_capacity(elements),
+            beyond: vec![0.0; elements],
+            by_force: vec![0.0; elements * stride_of_all],
             state: Vec::new(),
-            by_change: Vec::new(),
-            seen: Vec::new(),
+            row: vec![0.0; stride_of_all],
+            changed: vec![0.0; stride(changes.len())],
             modes: [0, 1, 2]
                 .map(|order| modes_seen(system, kept, order).into_iter().map(|f| (f.clone(), late(&f))).collect()),
         }
     }
 
-    /// What sensor `c` shows more where the force of every element is so far `beyond` its mean over the last step.
-    pub(super) fn late(&self, c: usize, beyond: &[f64]) -> f64 {
-        if !self.moved {
-            return 0.0;
+    /// Notes what the forces on the structure, the first of the inputs, are beyond the mean `forces` of the elements.
+    pub(super) fn set_beyond(&mut self, inputs: &[f64], forces: &[f64]) {
+        let beyond = inputs.iter().zip(forces).map(|(now, mean)| now + mean);
+        self.beyond.iter_mut().zip(beyond).for_each(|(own, beyond)| *own = beyond);
+    }
+
+    fn late_of(&self, c: usize) -> &[f64] {
+        if self.moved { &self.late[c * self.elements..(c + 1) * self.elements] } else { &[] }
+    }
+
+    /// What sensor `c` shows more where the forces of elements are beyond their means over the last step.
+    pub(super) fn late(&self, c: usize) -> f64 {
+        dot(self.late_of(c), &self.beyond[..self.late_of(c).len()])
+    }
+
+    /// The row of the derivatives of the force of element `l`.
+    pub(super) fn force_row(&mut self, l: usize) -> &mut [f64] {
+        let stride = self.row.len();
+        &mut self.by_force[l * stride..(l + 1) * stride]
+    }
+
+    /// Derivatives of what sensor `c` shows of the state `z` under `inputs`.
+    pub(super) fn derivatives(
+        &mut self,
+        c: usize,
+        sensor: &Sensor,
+        by: &Derivatives,
+        (z, inputs): (&[f64], &[f64]),
+    ) -> &[f64] {
+        let mut row = std::mem::take(&mut self.row);
+        combine_rows(&sensor.functional.row, &by.states, &mut row);
+        if !self.changes[c].is_empty() {
+            self.state.clear();
+            self.state.extend(z.iter().chain(inputs));
+            combine_rows(&self.state, &self.changes[c], &mut self.changed);
+            row.iter_mut().zip(&self.changed).for_each(|(row, changed)| *row += changed);
         }
-        self.late[c * self.elements..(c + 1) * self.elements].iter().zip(beyond).map(|(late, f)| late * f).sum()
+        let stride = row.len();
+        for l in 0..self.elements {
+            let late = self.late_of(c).get(l).copied().unwrap_or(0.0);
+            let at_once = late + sensor.functional.inputs[l];
+            let means = &by.forces[l * stride..(l + 1) * stride];
+            for ((row, now), mean) in row.iter_mut().zip(&self.by_force[l * stride..]).zip(means) {
+                *row += late * mean - at_once * now;
+            }
+        }
+        self.row = row;
+        &self.row
     }
 
     /// Adds what channels show of the kept modes at the present state under inputs.
     pub(super) fn write_modal(&self, march: &March, inputs: &[f64], modal: &mut [Vec<Vec<f64>>; 3]) {
-        let beyond = if self.moved { beyond_mean(inputs, march) } else { vec![0.0; self.elements] };
         for (lists, modes) in modal.iter_mut().zip(&self.modes) {
             for (list, (functional, late)) in lists.iter_mut().zip(modes) {
-                list.push(dot(&functional.row, &march.z) + dot(&functional.inputs, inputs) + dot(late, &beyond));
+                let late = if self.moved { dot(late, &self.beyond) } else { 0.0 };
+                list.push(dot(&functional.row, &march.z) + dot(&functional.inputs, inputs) + late);
             }
         }
     }
-
-    /// What the changes of the linear part do to the samples at a state under inputs.
-    pub(super) fn changed(&mut self, z: &[f64], inputs: &[f64]) {
-        self.state.clear();
-        self.state.extend(z.iter().chain(inputs));
-        scalar_products(&self.changes, &self.state, self.width, &mut self.by_change);
-    }
 }
 
-/// By how much the force of every element on the structure is beyond its mean over the last step.
-pub(super) fn beyond_mean(inputs: &[f64], march: &March) -> Vec<f64> {
-    inputs.iter().zip(&march.forces).map(|(now, mean)| now + mean).collect()
+/// How an acceleration changes with each change of the linear part, over the state and the inputs, a row of the changes each; empty for
+/// other sensors.
+fn changes_seen(system: &LinearSystem, sensor: &Sensor, changes: &[LinearChange]) -> Vec<f64> {
+    let Some(pattern) = &sensor.pattern else { return Vec::new() };
+    let columns = stride(changes.len());
+    let mut rows = vec![0.0; columns * (2 * system.lambda.len() + system.beta.len())];
+    for (c, change) in changes.iter().enumerate() {
+        let Functional { row, inputs } = system.acceleration_change(pattern, change);
+        rows.chunks_exact_mut(columns).zip(row.iter().chain(&inputs)).for_each(|(row, x)| row[c] = *x);
+    }
+    rows
 }
 
 /// What a channel of an order of differentiation shows of each kept mode.
