@@ -1,7 +1,9 @@
 //! Many vectors side by side: a row holds one entry of all of them, so that what is done to every vector runs along rows, as a march
 //! in time with many derivatives needs it at every step. Rows are [`stride`] long; what stands behind the vectors is padding.
 
-use pulp::Arch;
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
+
+use crate::lanes::{Wide, widest};
 
 /// Vectors that are treated at once.
 const BLOCK: usize = 4;
@@ -11,83 +13,166 @@ pub fn stride(count: usize) -> usize {
     count.next_multiple_of(BLOCK)
 }
 
-/// Multiplies complex vectors by `factor`: rows of the real parts, behind them those of the imaginary parts; the factor is laid out alike.
-pub fn turn_rows(factor: &[f64], rows: &mut [f64]) {
-    let half = factor.len() / 2;
-    if half == 0 || rows.is_empty() {
-        return;
-    }
-    let (c, s) = factor.split_at(half);
-    let (re, im) = rows.split_at_mut(rows.len() / 2);
-    let stride = re.len() / half;
-    Arch::new().dispatch(|| {
-        let pairs = re.chunks_exact_mut(stride).zip(im.chunks_exact_mut(stride));
-        for ((re, im), (c, s)) in pairs.zip(c.iter().zip(s)) {
-            for (re, im) in re.iter_mut().zip(im) {
-                let (a, b) = (*re, *im);
-                *re = c * a - s * b;
-                *im = s * a + c * b;
+/// Multiplies complex vectors by `factor`: rows of the real parts, behind them those of the imaginary parts, each `stride` long; the factor
+/// is laid out alike.
+pub fn turn_rows(factor: &[f64], rows: &mut [f64], stride: usize) {
+    widest(Turn { factor, rows, stride });
+}
+
+struct Turn<'a> {
+    factor: &'a [f64],
+    rows: &'a mut [f64],
+    stride: usize,
+}
+
+impl Wide for Turn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let half = self.factor.len() / 2;
+        let (c, s) = self.factor.split_at(half);
+        let (mut re, mut im) = self.rows.split_at_mut(half * self.stride);
+        for (c, s) in c.iter().zip(s) {
+            let (own, others) = re.split_at_mut(self.stride);
+            let (own_im, others_im) = im.split_at_mut(self.stride);
+            (re, im) = (others, others_im);
+            for (re, im) in blocks(own).iter_mut().zip(blocks(own_im)) {
+                for k in 0..BLOCK {
+                    let (a, b) = (re[k], im[k]);
+                    re[k] = c * a - s * b;
+                    im[k] = s * a + c * b;
+                }
             }
         }
-    });
+    }
 }
 
 /// Scalar products of one vector with all: `out = sum_i weights_i row_i`.
 pub fn combine_rows(weights: &[f64], rows: &[f64], out: &mut [f64]) {
-    let stride = out.len();
-    if stride == 0 {
-        return;
-    }
-    Arch::new().dispatch(|| {
-        for (b, out) in out.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
+    widest(Combine(weights, rows, out));
+}
+
+struct Combine<'a>(&'a [f64], &'a [f64], &'a mut [f64]);
+
+impl Wide for Combine<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(weights, rows, out) = self;
+        let stride = out.len();
+        let pairs = weights.as_chunks::<2>();
+        for (b, out) in blocks(out).iter_mut().enumerate() {
             // Two sums: each addition waits for the one before.
-            let mut sums = [[0.0; BLOCK]; 2];
-            for (i, (w, row)) in weights.iter().zip(rows.chunks_exact(stride)).enumerate() {
-                let Some(row) = row[b * BLOCK..].first_chunk::<BLOCK>() else { break };
-                for (sum, x) in sums[i % 2].iter_mut().zip(row) {
-                    *sum += w * x;
+            let (mut even, mut odd) = ([0.0; BLOCK], [0.0; BLOCK]);
+            let mut at = b * BLOCK;
+            for w in pairs.0 {
+                let (first, second) = (&rows[at..at + BLOCK], &rows[at + stride..at + stride + BLOCK]);
+                for k in 0..BLOCK {
+                    even[k] += w[0] * first[k];
+                    odd[k] += w[1] * second[k];
+                }
+                at += 2 * stride;
+            }
+            for w in pairs.1 {
+                let rest = &rows[at..at + BLOCK];
+                for k in 0..BLOCK {
+                    even[k] += w * rest[k];
                 }
             }
-            *out = std::array::from_fn(|k| sums[0][k] + sums[1][k]);
+            for k in 0..BLOCK {
+                out[k] = even[k] + odd[k];
+            }
         }
-    });
+    }
 }
 
 /// Adds to every vector its own multiple of one: `row_i += weights_i multiples`.
 pub fn add_to_rows(weights: &[f64], multiples: &[f64], rows: &mut [f64]) {
-    let stride = multiples.len();
-    if stride == 0 {
-        return;
-    }
-    Arch::new().dispatch(|| {
-        for (w, row) in weights.iter().zip(rows.chunks_exact_mut(stride)) {
-            for (row, m) in row.iter_mut().zip(multiples) {
-                *row += w * m;
+    widest(Add(weights, multiples, rows));
+}
+
+struct Add<'a>(&'a [f64], &'a [f64], &'a mut [f64]);
+
+impl Wide for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(weights, multiples, mut rows) = self;
+        for w in weights {
+            let (own, others) = rows.split_at_mut(multiples.len());
+            rows = others;
+            for (row, m) in blocks(own).iter_mut().zip(multiples.as_chunks::<BLOCK>().0) {
+                for k in 0..BLOCK {
+                    row[k] += w * m[k];
+                }
             }
         }
-    });
+    }
 }
 
 /// Adds a product to the first vectors: `row_i += sum_j A_ij x_j`, where `A_ij` is `columns` long, those of row 0 first. `columns` is a
 /// [`stride`].
 pub fn add_product_to_rows(matrix: &[f64], x: &[f64], columns: usize, rows: &mut [f64], stride: usize) {
-    if columns == 0 || x.is_empty() {
-        return;
+    if columns > 0 {
+        widest(AddProduct { matrix, x, columns, rows, stride });
     }
-    Arch::new().dispatch(|| {
-        for (row, matrix) in rows.chunks_exact_mut(stride).zip(matrix.chunks_exact(columns * x.len())) {
-            for (b, row) in row[..columns].as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
-                let mut sum = *row;
-                for (x, entry) in x.iter().zip(matrix.chunks_exact(columns)) {
-                    let Some(entry) = entry[b * BLOCK..].first_chunk::<BLOCK>() else { break };
-                    for (sum, a) in sum.iter_mut().zip(entry) {
-                        *sum += a * x;
-                    }
-                }
-                *row = sum;
+}
+
+struct AddProduct<'a> {
+    matrix: &'a [f64],
+    x: &'a [f64],
+    columns: usize,
+    rows: &'a mut [f64],
+    stride: usize,
+}
+
+impl Wide for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { mut matrix, x, columns, mut rows, stride } = self;
+        let size = columns * x.len();
+        while rows.len() >= stride && matrix.len() >= size {
+            let (row, others) = rows.split_at_mut(stride);
+            let (own, behind) = matrix.split_at(size);
+            // Two blocks at once: each addition waits for the one before.
+            let (wide, narrow) = row[..columns].as_chunks_mut::<{ 2 * BLOCK }>();
+            let mut at = 0;
+            for row in wide {
+                add_block(row, &own[at..], x, columns);
+                at += 2 * BLOCK;
             }
+            for row in blocks(narrow) {
+                add_block(row, &own[at..], x, columns);
+                at += BLOCK;
+            }
+            (rows, matrix) = (others, behind);
         }
-    });
+    }
+}
+
+/// `row += sum_j x_j m_j` with blocks `m_j` that begin `columns` behind each other.
+#[inline(always)]
+fn add_block<const N: usize>(row: &mut [f64; N], matrix: &[f64], x: &[f64], columns: usize) {
+    let mut sum = *row;
+    let mut at = 0;
+    for x in x {
+        let entry = &matrix[at..at + N];
+        for k in 0..N {
+            sum[k] += entry[k] * x;
+        }
+        at += columns;
+    }
+    *row = sum;
+}
+
+#[inline(always)]
+fn blocks(row: &mut [f64]) -> &mut [[f64; BLOCK]] {
+    row.as_chunks_mut::<BLOCK>().0
 }
 
 #[cfg(test)]
@@ -113,7 +198,7 @@ mod tests {
             let mut seen = vec![0.0; stride];
             combine_rows(&weights, &start, &mut seen);
             let mut turned = start.clone();
-            turn_rows(&weights, &mut turned);
+            turn_rows(&weights, &mut turned, stride);
             let mut added = start.clone();
             add_to_rows(&weights, &seen, &mut added);
             for v in 0..count {
@@ -131,8 +216,8 @@ mod tests {
 
     #[test]
     fn products_reach_the_first_vectors() {
-        let (width, count, inputs) = (3, 9, 5);
-        let (stride, columns) = (stride(count), 4);
+        let (width, count, inputs) = (3, 13, 5);
+        let (stride, columns) = (stride(count), 12);
         let matrix: Vec<f64> = (0..width * inputs * columns).map(|k| (k as f64 * 0.7).sin()).collect();
         let x: Vec<f64> = (0..inputs).map(|j| j as f64 - 1.5).collect();
         let mut sum = rows(width, count);

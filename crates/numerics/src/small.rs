@@ -3,8 +3,7 @@
 
 #![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
 
-use crate::dot;
-use pulp::Arch;
+use crate::lanes::{Wide, dot, widest};
 
 /// `P A = L U` of a real square matrix, stored row by row.
 #[derive(Debug, Clone)]
@@ -18,17 +17,39 @@ pub struct RowLu {
 impl RowLu {
     /// Factors of the `size x size` matrix given row by row; `None` if it is singular or not finite.
     pub fn new(size: usize, matrix: Vec<f64>) -> Option<Self> {
-        Arch::new().dispatch(|| factors(size, matrix))
+        widest(Factors(size, matrix))
     }
 
     /// Replaces `rhs` by the solution.
     pub fn solve(&self, rhs: &mut [f64]) {
-        Arch::new().dispatch(|| substitute(self, rhs));
+        widest(Substitute(self, rhs));
     }
 
     /// Sign of the determinant, -1 or 1.
     pub fn sign(&self) -> f64 {
         (0..self.size).fold(self.sign, |s, i| s * self.factors[i * self.size + i].signum())
+    }
+}
+
+struct Factors(usize, Vec<f64>);
+
+impl Wide for Factors {
+    type Output = Option<RowLu>;
+
+    #[inline(always)]
+    fn call(self) -> Option<RowLu> {
+        factors(self.0, self.1)
+    }
+}
+
+struct Substitute<'a>(&'a RowLu, &'a mut [f64]);
+
+impl Wide for Substitute<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        substitute(self.0, self.1);
     }
 }
 

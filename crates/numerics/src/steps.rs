@@ -1,48 +1,87 @@
 //! Products for many short vectors that lie one behind the other, as a march in time needs them at every step.
 
-use pulp::Arch;
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
 
-use crate::lanes::dot;
+use crate::lanes::{Wide, dot, widest};
 
 /// `y += A x`, the matrix column by column.
 pub fn add_product(matrix: &[f64], x: &[f64], y: &mut [f64]) {
-    Arch::new().dispatch(|| {
-        for (column, x) in matrix.chunks_exact(y.len()).zip(x) {
+    widest(AddProduct(matrix, x, y));
+}
+
+struct AddProduct<'a>(&'a [f64], &'a [f64], &'a mut [f64]);
+
+impl Wide for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(matrix, x, y) = self;
+        let mut rest = matrix;
+        for x in x {
+            let (column, others) = rest.split_at(y.len());
+            rest = others;
             y.iter_mut().zip(column).for_each(|(y, a)| *y += a * x);
         }
-    });
+    }
 }
 
 /// Multiplies complex vectors, each its real parts and behind them its imaginary parts, by `factor`, laid out alike.
 pub fn turn(factor: &[f64], vectors: &mut [f64]) {
-    let half = factor.len() / 2;
-    if half == 0 {
-        return;
+    if factor.len() > 1 {
+        widest(Turn(factor, vectors));
     }
-    let (c, s) = factor.split_at(half);
-    Arch::new().dispatch(|| {
-        for vector in vectors.chunks_exact_mut(2 * half) {
-            let (re, im) = vector.split_at_mut(half);
-            for k in 0..half {
-                let (a, b) = (re[k], im[k]);
-                re[k] = c[k] * a - s[k] * b;
-                im[k] = s[k] * a + c[k] * b;
+}
+
+struct Turn<'a>(&'a [f64], &'a mut [f64]);
+
+impl Wide for Turn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(factor, vectors) = self;
+        let half = factor.len() / 2;
+        let (c, s) = factor.split_at(half);
+        let mut rest = vectors;
+        while rest.len() >= 2 * half {
+            let (re, others) = rest.split_at_mut(half);
+            let (im, others) = others.split_at_mut(half);
+            rest = others;
+            for ((re, im), (c, s)) in re.iter_mut().zip(im).zip(c.iter().zip(s)) {
+                let (a, b) = (*re, *im);
+                *re = c * a - s * b;
+                *im = s * a + c * b;
             }
         }
-    });
+    }
 }
 
 /// Scalar products of every row with every vector, both `width` long: those of the first vector first.
 pub fn scalar_products(rows: &[f64], vectors: &[f64], width: usize, out: &mut Vec<f64>) {
     out.clear();
-    if width == 0 {
-        return;
+    if width > 0 {
+        widest(ScalarProducts { rows, vectors, width, out });
     }
-    Arch::new().dispatch(|| {
+}
+
+struct ScalarProducts<'a> {
+    rows: &'a [f64],
+    vectors: &'a [f64],
+    width: usize,
+    out: &'a mut Vec<f64>,
+}
+
+impl Wide for ScalarProducts<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { rows, vectors, width, out } = self;
         for vector in vectors.chunks_exact(width) {
             out.extend(rows.chunks_exact(width).map(|row| dot(row, vector)));
         }
-    });
+    }
 }
 
 #[cfg(test)]

@@ -28,6 +28,8 @@ const FEWEST: usize = 2000;
 const MANY: usize = 8000;
 /// Phase of the highest seen motion that one step of the model may cover, rad.
 const STEP_PHASE: f64 = 0.2;
+/// The same in the course of a fit, where what longer steps miss is put right.
+const COARSE_PHASE: f64 = 0.6;
 
 /// Why records cannot be compared or explained.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -92,6 +94,15 @@ pub struct RecordData {
     pub median_hz: f64,
     /// Highest frequency at which the motion stands out, Hz.
     pub highest_hz: f64,
+}
+
+/// How long the steps of a model are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Steps {
+    /// As long as its motion allows.
+    Fine,
+    /// Longer, for the course of a fit.
+    Coarse,
 }
 
 /// All that is fitted.
@@ -273,10 +284,28 @@ impl RecordData {
         ((phase / most).ceil() as usize).clamp(1, 8)
     }
 
+    /// Whether there are longer steps than [`Self::substeps`] for the course of a fit.
+    pub(super) fn has_coarse_steps(&self) -> bool {
+        self.steps(Steps::Coarse) < self.substeps
+    }
+
+    /// Steps of the model from one sample to the next where a law is nonlinear.
+    fn steps(&self, steps: Steps) -> usize {
+        match steps {
+            Steps::Fine => self.substeps,
+            Steps::Coarse => self.steps_between(self.step, COARSE_PHASE).min(self.substeps),
+        }
+    }
+
     /// The measured forces of the first `samples` samples.
     pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
+        self.excitation_in(samples, linear, Steps::Fine)
+    }
+
+    /// The same in steps of some length.
+    pub(super) fn excitation_in(&self, samples: usize, linear: bool, steps: Steps) -> SampledForces {
         let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
-        let substeps = if linear { 1 } else { self.substeps };
+        let substeps = if linear { 1 } else { self.steps(steps) };
         SampledForces { step: self.step, samples, forces, substeps }
     }
 }

@@ -10,7 +10,7 @@ use super::data::RecordError;
 use super::evidence::{alike, scale};
 use super::fitted::FittedRecords;
 use super::held::Held;
-use super::normal::{Left, Normal, solve};
+use super::normal::{Equations, Left, Normal, solve};
 use super::problem::FitProblem;
 use super::variables::{scales, slopes};
 use dashpot_numerics::Cholesky;
@@ -37,7 +37,9 @@ impl FitProblem<'_> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let normal = |at: &FittedRecords| self.normal(at, &scales, unit);
-        let (best, equations) = self.descend((start.clone(), normal(start)?), iterations, &scales, unit, &normal)?.0;
+        let equations = Equations { normal: &normal, left: &|at| self.left(at) };
+        let place = (start.clone(), normal(start)?);
+        let (best, equations) = self.descend(place, iterations, &scales, unit, &equations)?.0;
         self.finish(best, &scales, equations)
     }
 
@@ -58,9 +60,10 @@ impl FitProblem<'_> {
         let unit = unit_of(start);
         let mut best = start.clone();
         for round in 0..rounds {
+            let defect = self.defect(&best)?;
             let normal = match held {
-                Some(held) if round == 0 => held.normal(self, &best, &scales, unit)?,
-                _ => match Held::new(self, &best, &scales, unit)? {
+                Some(held) if round == 0 => held.normal(self, &best, &scales, unit, &defect)?,
+                _ => match Held::new(self, &best, &scales, unit, &defect)? {
                     Some((own, normal)) => {
                         *held = Some(own);
                         normal
@@ -69,10 +72,11 @@ impl FitProblem<'_> {
                 },
             };
             let Some(held) = held else { break };
-            let renewed = |at: &FittedRecords| held.normal(self, at, &scales, unit);
+            let renewed = |at: &FittedRecords| held.normal(self, at, &scales, unit, &defect);
+            let there = Equations { normal: &renewed, left: &|at| self.left_beside(at, &defect) };
             let ended;
             let equations;
-            ((best, equations), ended) = self.descend((best, normal), steps, &scales, unit, &renewed)?;
+            ((best, equations), ended) = self.descend((best, normal), steps, &scales, unit, &there)?;
             if ended || round + 1 >= rounds || self.control.is_late() {
                 return self.finish(best, &scales, equations);
             }
@@ -80,14 +84,14 @@ impl FitProblem<'_> {
         self.improve(&best, 0)
     }
 
-    /// At most `steps` steps from a place, with equations by `normal`; whether the first of them gained nothing.
+    /// At most `steps` steps from a place; whether the first of them gained nothing.
     fn descend(
         &self,
         (mut best, mut equations): Place,
         steps: usize,
         scales: &[Vec<f64>],
         unit: f64,
-        normal: &dyn Fn(&FittedRecords) -> Result<Normal, RecordError>,
+        by: &Equations,
     ) -> Result<(Place, bool), RecordError> {
         let mut damping = 1e-3;
         for k in 0..steps {
@@ -96,7 +100,7 @@ impl FitProblem<'_> {
                 break;
             }
             let before = equations.left.total(unit);
-            let next = self.step(&best, scales, unit, (&equations, normal), &mut damping)?;
+            let next = self.step(&best, scales, unit, (&equations, by), &mut damping)?;
             let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
             (best, equations) = (next, there);
@@ -113,7 +117,7 @@ impl FitProblem<'_> {
         best: &FittedRecords,
         scales: &[Vec<f64>],
         unit: f64,
-        (equations, normal): (&Normal, &dyn Fn(&FittedRecords) -> Result<Normal, RecordError>),
+        (equations, by): (&Normal, &Equations),
         damping: &mut f64,
     ) -> Result<Option<Place>, RecordError> {
         let before = equations.left.total(unit);
@@ -125,14 +129,14 @@ impl FitProblem<'_> {
             let trial = self.moved(best, scales, &change);
             // The first step is mostly one that leaves less; later ones are looked at without derivatives.
             let there = if attempt == 0 {
-                normal(&trial).map(|there| (there.left.total(unit), Some(there)))
+                (by.normal)(&trial).map(|there| (there.left.total(unit), Some(there)))
             } else {
-                self.left(&trial).map(|there| (there.total(unit), None))
+                (by.left)(&trial).map(|there| (there.total(unit), None))
             };
             match there {
                 Ok((total, there)) if total < before => {
                     *damping = (*damping * 0.2).max(1e-12);
-                    let there = there.map_or_else(|| normal(&trial), Ok)?;
+                    let there = there.map_or_else(|| (by.normal)(&trial), Ok)?;
                     return Ok(Some((trial, there)));
                 }
                 // A model that runs away is no step.

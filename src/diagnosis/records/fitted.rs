@@ -1,6 +1,6 @@
 //! A model with the parameters that were fitted to some records, and what it predicts.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordError, Records, Steps};
 use super::errors::channel_errors;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -95,6 +95,17 @@ impl FittedRecords {
         samples: usize,
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, RecordError> {
+        self.predict_in(Steps::Fine, records, (r, samples), parameters)
+    }
+
+    /// The same in steps of some length.
+    pub(super) fn predict_in(
+        &self,
+        steps: Steps,
+        records: &Records,
+        (r, samples): (usize, usize),
+        parameters: &[TransientParameter],
+    ) -> Result<TransientResponse, RecordError> {
         let record = &records.list[r];
         let parts = records.parts.logarithms(&self.parts);
         let model = records.model(
@@ -103,7 +114,7 @@ impl FittedRecords {
             self.factors(r),
             ([&self.modes, &self.damping], &parts, &self.shapes),
         )?;
-        let forces = record.excitation(samples, model.is_linear());
+        let forces = record.excitation_in(samples, model.is_linear(), steps);
         let mut response = model
             .predict(&forces, &self.initial[r], parameters)
             .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;

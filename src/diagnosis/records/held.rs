@@ -10,7 +10,8 @@
 //! from what it has come to, the fit ends where one with full steps does. What is held knows nothing of the laws, so that first fits of
 //! several laws at one place may share it.
 
-use super::data::RecordError;
+use super::coarse_steps::Defect;
+use super::data::{RecordError, Steps};
 use super::fitted::FittedRecords;
 use super::normal::{Normal, Products, RecordDerivatives, RecordPart};
 use super::problem::FitProblem;
@@ -41,6 +42,7 @@ impl Held {
         at: &FittedRecords,
         scales: &[Vec<f64>],
         unit: f64,
+        defect: &Defect,
     ) -> Result<Option<(Self, Normal)>, RecordError> {
         let samples: usize = problem.records.list.iter().map(|r| r.len() * r.channels.len()).sum();
         if samples * (problem.shared(at) + problem.local()) > MOST {
@@ -48,7 +50,8 @@ impl Held {
         }
         let laws = problem.first_correction(at);
         let made = problem.control.map(problem.records.list.len(), |r| -> Result<_, RecordError> {
-            let derivatives = problem.derivatives(at, scales, r)?;
+            let mut derivatives = problem.derivatives(at, scales, r, Steps::Coarse)?;
+            defect.take_from(r, &mut derivatives.left);
             let part = derivatives.products(1.0);
             Ok((HeldRecord::new(derivatives, &part.products, laws), part))
         });
@@ -64,8 +67,10 @@ impl Held {
         at: &FittedRecords,
         scales: &[Vec<f64>],
         unit: f64,
+        defect: &Defect,
     ) -> Result<Normal, RecordError> {
-        let parts = problem.control.map(self.records.len(), |r| self.records[r].renewed(problem, at, scales, r));
+        let renewed = |r: usize| self.records[r].renewed(problem, at, scales, (r, defect));
+        let parts = problem.control.map(self.records.len(), renewed);
         Ok(problem.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
     }
 }
@@ -93,13 +98,14 @@ impl HeldRecord {
         problem: &FitProblem,
         at: &FittedRecords,
         scales: &[Vec<f64>],
-        r: usize,
+        (r, defect): (usize, &Defect),
     ) -> Result<RecordPart, RecordError> {
         let first = problem.first_correction(at);
         let all = problem.unknowns(at, scales, r);
         let own: Vec<(TransientParameter, usize, f64)> = all.into_iter().filter(|(_, k, _)| *k < first).collect();
         let parameters: Vec<TransientParameter> = own.iter().map(|(p, ..)| *p).collect();
-        let (left, mut columns) = problem.responses(at, r, &parameters)?;
+        let (mut left, mut columns) = problem.responses(at, r, &parameters, Steps::Coarse)?;
+        defect.take_from(r, &mut left);
         let laws = own.len();
         let mut products = self.products.behind(laws);
         for (c, (channel, e)) in self.channels.iter().zip(&left).enumerate() {
@@ -155,8 +161,9 @@ mod tests {
         let own = problem.normal(&power, &of_power, 1.0).unwrap();
         let largest = own.gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
         for (from, within) in [(&power, 1e-9), (&dashpot, 2e-2)] {
-            let (held, _) = Held::new(&problem, from, &scales(&from.effects), 1.0).unwrap().unwrap();
-            let shared = held.normal(&problem, &power, &of_power, 1.0).unwrap();
+            let defect = problem.defect(&power).unwrap();
+            let (held, _) = Held::new(&problem, from, &scales(&from.effects), 1.0, &defect).unwrap().unwrap();
+            let shared = held.normal(&problem, &power, &of_power, 1.0, &defect).unwrap();
             for (k, (a, b)) in own.gradient.iter().zip(&shared.gradient).enumerate() {
                 assert!((a - b).abs() < within * largest, "{k}: {a} {b}");
                 for j in 0..own.gradient.len() {

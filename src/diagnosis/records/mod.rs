@@ -6,6 +6,7 @@
 //! amplitude are read by one estimator from record and model ([`amplitude`]).
 
 pub mod amplitude;
+mod coarse_steps;
 pub(crate) mod compare;
 mod conclusion;
 pub(crate) mod data;

@@ -1,7 +1,8 @@
 //! The normal equations of a fit of records at a point: products of the derivatives of every record, with the priors of the
 //! corrections, and the step of Levenberg and Marquardt that follows from them.
 
-use super::data::{RecordData, RecordError};
+use super::coarse_steps::Defect;
+use super::data::{RecordData, RecordError, Steps};
 use super::fitted::FittedRecords;
 use super::problem::FitProblem;
 use crate::response::transient::{TransientError, TransientParameter};
@@ -13,6 +14,12 @@ pub(super) struct Normal {
     pub matrix: Mat<f64>,
     pub gradient: Vec<f64>,
     pub left: Left,
+}
+
+/// How the equations at a point, and what is left there, are found.
+pub(super) struct Equations<'a> {
+    pub normal: &'a dyn Fn(&FittedRecords) -> Result<Normal, RecordError>,
+    pub left: &'a dyn Fn(&FittedRecords) -> Result<Left, RecordError>,
 }
 
 /// What is left at a point.
@@ -33,7 +40,7 @@ impl Left {
 impl FitProblem<'_> {
     pub(super) fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
         let parts = self.control.map(self.records.list.len(), |r| {
-            self.derivatives(at, scales, r).map(|derivatives| derivatives.products(1.0))
+            self.derivatives(at, scales, r, Steps::Fine).map(|derivatives| derivatives.products(1.0))
         });
         Ok(self.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
     }
@@ -67,10 +74,23 @@ impl FitProblem<'_> {
 
     /// What a model leaves, without derivatives.
     pub(super) fn left(&self, at: &FittedRecords) -> Result<Left, RecordError> {
-        let one = |r: usize| -> Result<Vec<Vec<f64>>, RecordError> {
-            let samples = self.samples(r);
-            self.over_noise(r, &at.predict(self.records, r, samples, &[])?.channels)
-        };
+        self.left_by(at, &|r| self.left_of(at, r, Steps::Fine))
+    }
+
+    /// The same in long steps, put right by their defect.
+    pub(super) fn left_beside(&self, at: &FittedRecords, defect: &Defect) -> Result<Left, RecordError> {
+        self.left_by(at, &|r| {
+            let mut left = self.left_of(at, r, Steps::Coarse)?;
+            defect.take_from(r, &mut left);
+            Ok(left)
+        })
+    }
+
+    fn left_by(
+        &self,
+        at: &FittedRecords,
+        one: &(dyn Fn(usize) -> Result<Vec<Vec<f64>>, RecordError> + Sync),
+    ) -> Result<Left, RecordError> {
         let mut left = Left::default();
         for list in self.control.map(self.records.list.len(), one) {
             let list = list?;
@@ -80,6 +100,12 @@ impl FitProblem<'_> {
         }
         left.prior = self.priors(at).into_iter().map(|(_, value, deviation)| (value / deviation).powi(2)).sum();
         Ok(left)
+    }
+
+    /// What it leaves of record `r`, over the noise.
+    pub(super) fn left_of(&self, at: &FittedRecords, r: usize, steps: Steps) -> Result<Vec<Vec<f64>>, RecordError> {
+        let response = at.predict_in(steps, self.records, (r, self.samples(r)), &[])?;
+        self.over_noise(r, &response.channels)
     }
 
     /// Samples of a record that are used.
@@ -109,6 +135,7 @@ impl FitProblem<'_> {
         at: &FittedRecords,
         scales: &[Vec<f64>],
         r: usize,
+        steps: Steps,
     ) -> Result<RecordDerivatives, RecordError> {
         let unknowns = self.unknowns(at, scales, r);
         let mut parameters: Vec<TransientParameter> = Vec::new();
@@ -117,7 +144,7 @@ impl FitProblem<'_> {
                 parameters.push(*p);
             }
         }
-        let mut response = at.predict(self.records, r, self.samples(r), &parameters)?;
+        let mut response = at.predict_in(steps, self.records, (r, self.samples(r)), &parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         let mut derivatives = std::mem::take(&mut response.derivatives);
         self.whiten(r, &mut derivatives);
@@ -149,8 +176,9 @@ impl FitProblem<'_> {
         at: &FittedRecords,
         r: usize,
         parameters: &[TransientParameter],
+        steps: Steps,
     ) -> Result<(Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>), RecordError> {
-        let mut response = at.predict(self.records, r, self.samples(r), parameters)?;
+        let mut response = at.predict_in(steps, self.records, (r, self.samples(r)), parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         self.whiten(r, &mut response.derivatives);
         Ok((left, response.derivatives))

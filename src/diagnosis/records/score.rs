@@ -9,7 +9,7 @@
 //! corrections, shapes, offsets and initial states are free beside the law. No motion is expanded from few sensors, and a law that
 //! is weak beside the errors of the model is weighed as the fit itself will weigh it; a fit that has lost the phase tells nothing.
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordError, Records, Steps};
 use super::evidence::{evidence, scale};
 use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
@@ -72,7 +72,9 @@ impl<'a> ScoreTest<'a> {
         let records = problem.records;
         let scales = scales(&fit.effects);
         let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordError> {
-            Ok(Thinned::new(problem.derivatives(fit, &scales, r)?))
+            let mut derivatives = problem.derivatives(fit, &scales, r, Steps::Coarse)?;
+            derivatives.left = problem.left_of(fit, r, Steps::Fine)?;
+            Ok(Thinned::new(derivatives))
         });
         let thinned: Vec<Thinned> = made.into_iter().collect::<Result<_, _>>()?;
         let products = thinned.iter().map(|t| t.derivatives.products(t.every as f64)).collect();

@@ -21,6 +21,11 @@ pub(super) fn is_linear(effect: Effect) -> bool {
     matches!(effect.constant(), Some(Constant::Mass | Constant::Viscous | Constant::Stiffness))
 }
 
+/// Whether steps of any length are exact for an effect: it belongs to the linear part or is no force.
+pub fn has_exact_steps(effect: Effect) -> bool {
+    is_linear(effect) || matches!(effect.kind(), Kind::Channel(_))
+}
+
 /// Whether a law between places has a force in time that can be stepped.
 pub fn has_force_in_time(effect: Effect) -> bool {
     effect.law().is_some_and(|law| is_linear(effect) || Form::of(law).is_some())
@@ -28,7 +33,7 @@ pub fn has_force_in_time(effect: Effect) -> bool {
 
 /// The elements of a source that does not belong to the linear part.
 pub(super) fn nonlinear(index: usize, source: &Source) -> Result<Vec<Nonlinear>, TransientError> {
-    if is_linear(source.effect) || matches!(source.effect.kind(), Kind::Channel(_)) {
+    if has_exact_steps(source.effect) {
         return Ok(Vec::new());
     }
     let refuse = TransientError::NoTimeDomain { effect: source.effect.name() };

@@ -125,7 +125,7 @@ impl Derivatives {
         for (view, starts) in views.iter().zip(self.starts.chunks_exact_mut(stride)) {
             combine_rows(&view.displacement, &self.states, starts);
         }
-        piece.step.decay_rows(&mut self.states);
+        piece.step.decay_rows(&mut self.states, stride);
         self.change(piece);
         if elements.is_empty() {
             return;

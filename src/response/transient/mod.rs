@@ -28,7 +28,7 @@ mod view;
 mod writer;
 
 pub use along::force_along;
-pub use assembly::has_force_in_time;
+pub use assembly::{has_exact_steps, has_force_in_time};
 pub use error::TransientError;
 pub use hold::Hold;
 pub use model::TransientModel;

@@ -73,9 +73,9 @@ impl Step {
         turn(&self.decay, z);
     }
 
-    /// The same of many states, a row of each entry.
-    pub(super) fn decay_rows(&self, rows: &mut [f64]) {
-        turn_rows(&self.decay, rows);
+    /// The same of many states, a row of each entry, `stride` long.
+    pub(super) fn decay_rows(&self, rows: &mut [f64], stride: usize) {
+        turn_rows(&self.decay, rows, stride);
     }
 
     /// What a constant unit force at an input does to a state.
