@@ -50,3 +50,53 @@ impl Defect {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::diagnosis::records::problem::Free;
+    use crate::effects::{Effect, Place, Source};
+
+    /// Root mean square of the difference of what two predictions leave.
+    fn apart(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+        let squares = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// Long steps leave what fine ones do where the defect was taken, and nearly so where the law and the start are a few per cent others;
+    /// a linear model has no defect.
+    #[test]
+    fn long_steps_are_put_right_around_where_the_defect_was_taken() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let wave = |dof: usize| (0..400).map(|n| 1e-2 * (0.5 * f64::from(n) + dof as f64).sin()).collect();
+        let run = decay(1e-2, vec![wave(0), wave(1)]);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let problem = FitProblem { records: &records, free: Free::all(&records), share: 1.0, control: &control };
+        let fit = |effect: Effect, factor: f64, parameter: f64| {
+            let mut fit = FittedRecords::start(&records, &[]);
+            fit.initial[0][0] = 1e-2 * factor;
+            fit.effects = vec![Source::known(effect, Place::Dofs(vec![1]), &[factor * parameter])];
+            fit
+        };
+        let cubic = |factor: f64| fit(Effect::CubicStiffness, factor, 5e6);
+        let left = |at: &FittedRecords, steps| problem.left_of(at, 0, steps).unwrap();
+        let defect = problem.defect(&cubic(1.0)).unwrap();
+        let error = |at: &FittedRecords| {
+            let fine = left(at, Steps::Fine);
+            let beside = problem.left_beside(at, &defect).unwrap().residual;
+            (apart(&beside[0], &fine), apart(&left(at, Steps::Coarse), &fine))
+        };
+        let (there, coarse) = error(&cubic(1.0));
+        assert!(coarse > 1.0 && there < 1e-9 * coarse, "{there:.1e} {coarse:.1e}");
+        let (near, coarse) = error(&cubic(1.02));
+        assert!(near < 0.3 * coarse, "{near:.1e} {coarse:.1e}");
+        let exact = problem.defect(&fit(Effect::Viscous, 1.0, 0.5)).unwrap();
+        assert!(exact.0.iter().all(Option::is_none));
+    }
+}

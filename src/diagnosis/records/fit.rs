@@ -15,6 +15,7 @@ use super::problem::FitProblem;
 use super::variables::{scales, slopes};
 use dashpot_numerics::Cholesky;
 use faer::Mat;
+use std::sync::Arc;
 
 /// Dampings that are tried for a step.
 const ATTEMPTS: usize = 6;
@@ -172,7 +173,8 @@ impl FitProblem<'_> {
         best.deviations = (0..shared).map(deviation).collect();
         best.alike = alike(self.records, self.share);
         let Left { chi_square, prior, count, residual } = normal.left;
-        (best.chi_square, best.prior, best.count, best.residual) = (chi_square, prior, count, residual);
+        (best.chi_square, best.prior, best.count) = (chi_square, prior, count);
+        best.residual = Arc::new(residual);
         Ok(best)
     }
 }

@@ -5,6 +5,7 @@ use super::errors::channel_errors;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::transient::{TransientParameter, TransientResponse};
+use std::sync::Arc;
 
 /// A model with the parameters that were fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,8 +45,8 @@ pub(crate) struct FittedRecords {
     /// the stiffness of the modes, of mass and of
     /// the shapes, in units of the noise that was stated.
     pub deviations: Vec<f64>,
-    /// What is left, over the noise: `[record][channel][sample]`.
-    pub residual: Vec<Vec<Vec<f64>>>,
+    /// What is left, over the noise: `[record][channel][sample]`; shared, for a fit is copied at every step.
+    pub residual: Arc<Vec<Vec<Vec<f64>>>>,
 }
 
 impl FittedRecords {
@@ -68,7 +69,7 @@ impl FittedRecords {
             count: 0,
             alike: 1.0,
             deviations: Vec::new(),
-            residual: Vec::new(),
+            residual: Arc::default(),
         }
     }
 
@@ -167,7 +168,7 @@ impl FittedRecords {
             count: 1,
             alike: 1.0,
             deviations: Vec::new(),
-            residual: Vec::new(),
+            residual: Arc::default(),
         }
     }
 }

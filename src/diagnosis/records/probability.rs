@@ -57,12 +57,13 @@ fn squares(fit: &FittedRecords) -> Vec<f64> {
 mod tests {
     use super::probabilities;
     use crate::diagnosis::records::fitted::FittedRecords;
+    use std::sync::Arc;
 
     /// A fit of one channel whose squared residual in every stretch is this.
     fn fit(squares: &[f64; 12]) -> FittedRecords {
         let residual = vec![vec![squares.iter().flat_map(|s| vec![(s / 50.0).sqrt(); 50]).collect::<Vec<f64>>()]];
         let chi_square = squares.iter().sum();
-        FittedRecords { residual, count: 600, ..FittedRecords::of_effects(Vec::new(), chi_square) }
+        FittedRecords { residual: Arc::new(residual), count: 600, ..FittedRecords::of_effects(Vec::new(), chi_square) }
     }
 
     #[test]

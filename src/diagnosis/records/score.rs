@@ -263,12 +263,11 @@ impl Search<'_> {
         all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         all.extend(at(&foremost(all.iter().map(|s| &s.source.place)), &shaped));
         let unit = scale(fit);
-        let bare = FittedRecords { residual: Vec::new(), ..fit.clone() };
         let worth = |s: &Scored| {
             let effects = fit.effects.iter().chain([&s.source]).cloned().collect();
-            evidence(&FittedRecords { effects, chi_square: fit.chi_square - s.gain, ..bare.clone() }, unit)
+            evidence(&FittedRecords { effects, chi_square: fit.chi_square - s.gain, ..fit.clone() }, unit)
         };
-        let none = evidence(&bare, unit);
+        let none = evidence(fit, unit);
         let most = all.iter().map(|s| s.gain).fold(0.0, f64::max);
         all.retain(|s| worth(s) < none);
         all.sort_by(|a, b| worth(a).total_cmp(&worth(b)));

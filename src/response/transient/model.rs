@@ -129,6 +129,7 @@ impl TransientModel {
             }
             writer.write_modal(&march, &inputs, &mut modal);
         }
+        writer.write_gathered(&march.derivatives.order, &mut derivatives, true);
         if !march.z.iter().all(|z| z.is_finite()) {
             return Err(TransientError::StepFailed);
         }
@@ -263,14 +264,9 @@ impl TransientModel {
             self.force_change((l, &mut elements[l]), by, (seen, side[l]), writer.force_row(l));
         }
         for (c, sensor) in self.sensors.iter().enumerate() {
-            let row = match sensor.drive {
-                Some(_) => None,
-                None => Some(writer.derivatives(c, sensor, by, (z, inputs))),
-            };
-            for (p, &theta) in by.order.iter().enumerate() {
-                derivatives[theta][c].push(row.map_or(0.0, |row| row[p]));
-            }
+            writer.gather(c, sensor, by, (z, inputs));
         }
+        writer.write_gathered(&by.order, derivatives, false);
     }
 
     /// Derivatives of the present force of element `l`.

@@ -6,6 +6,9 @@ use super::step::Step;
 use super::system::{Functional, LinearChange, LinearSystem};
 use dashpot_numerics::{combine_rows, dot, stride};
 
+/// Samples whose derivatives are written together: two lines of memory.
+const GATHERED: usize = 16;
+
 /// What a channel shows.
 pub(super) struct Sensor {
     /// Times the motion is differentiated; none for a force.
@@ -44,6 +47,8 @@ pub(super) struct Writer {
     state: Vec<f64>,
     row: Vec<f64>,
     changed: Vec<f64>,
+    /// Rows of derivatives of each sensor that are not written yet.
+    gathered: Vec<Vec<f64>>,
     /// What a channel of each order shows of each kept mode, and what it shows of it too late.
     modes: [Vec<(Functional, Vec<f64>)>; 3],
 }
@@ -72,6 +77,7 @@ impl Writer {
             state: Vec::new(),
             row: vec![0.0; stride_of_all],
             changed: vec![0.0; stride(changes.len())],
+            gathered: vec![Vec::with_capacity(GATHERED * stride_of_all); sensors.len()],
             modes: [0, 1, 2]
                 .map(|order| modes_seen(system, kept, order).into_iter().map(|f| (f.clone(), late(&f))).collect()),
         }
@@ -98,16 +104,41 @@ impl Writer {
         &mut self.by_force[l * stride..(l + 1) * stride]
     }
 
-    /// Derivatives of what sensor `c` shows of the state `z` under `inputs`.
-    pub(super) fn derivatives(
+    /// Gathers the derivatives of what sensor `c` shows of the state `z` under `inputs`.
+    pub(super) fn gather(&mut self, c: usize, sensor: &Sensor, by: &Derivatives, (z, inputs): (&[f64], &[f64])) {
+        let mut row = std::mem::take(&mut self.row);
+        if sensor.drive.is_some() {
+            row.fill(0.0);
+        } else {
+            self.fill(&mut row, (c, sensor), by, (z, inputs));
+        }
+        self.gathered[c].extend_from_slice(&row);
+        self.row = row;
+    }
+
+    /// Writes what was gathered once it is enough, or whatever it is at the end: `derivatives[parameter][channel]`, whose parameters stand in
+    /// another `order` in the rows. Lists that are as many and as long as these are slow to be written sample by sample.
+    pub(super) fn write_gathered(&mut self, order: &[usize], derivatives: &mut [Vec<Vec<f64>>], at_end: bool) {
+        let stride = self.row.len();
+        for (c, rows) in self.gathered.iter_mut().enumerate() {
+            if stride == 0 || rows.len() < GATHERED * stride && !at_end {
+                continue;
+            }
+            for (p, &theta) in order.iter().enumerate() {
+                derivatives[theta][c].extend(rows.chunks_exact(stride).map(|row| row[p]));
+            }
+            rows.clear();
+        }
+    }
+
+    fn fill(
         &mut self,
-        c: usize,
-        sensor: &Sensor,
+        row: &mut [f64],
+        (c, sensor): (usize, &Sensor),
         by: &Derivatives,
         (z, inputs): (&[f64], &[f64]),
-    ) -> &[f64] {
-        let mut row = std::mem::take(&mut self.row);
-        combine_rows(&sensor.functional.row, &by.states, &mut row);
+    ) {
+        combine_rows(&sensor.functional.row, &by.states, row);
         if !self.changes[c].is_empty() {
             self.state.clear();
             self.state.extend(z.iter().chain(inputs));
@@ -123,8 +154,6 @@ impl Writer {
                 *row += late * mean - at_once * now;
             }
         }
-        self.row = row;
-        &self.row
     }
 
     /// Adds what channels show of the kept modes at the present state under inputs.
