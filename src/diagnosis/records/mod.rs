@@ -9,6 +9,7 @@ pub mod amplitude;
 pub(crate) mod compare;
 mod conclusion;
 pub(crate) mod data;
+mod decays;
 pub(crate) mod diagnose;
 mod errors;
 mod evidence;
