@@ -3,7 +3,7 @@
 
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use super::data::{RecordData, RecordError, Records};
-use super::decays::decays;
+use super::decays::{decays, telling};
 use super::errors::channel_errors;
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
@@ -326,8 +326,8 @@ fn curves(record: &RecordData, model: &[Vec<f64>], louder: &Louder) -> Vec<ModeC
         .first()
         .map_or_else(Vec::new, |main| decays([&main.measured, &main.model], &louder, &|y| read(y, main.frequency_hz)));
     for curve in &mut curves {
-        let further = other.iter().flat_map(|y| read(y, curve.frequency_hz));
-        let mut all: Vec<AmplitudePoint> = curve.model.iter().copied().chain(further).collect();
+        let further = other.iter().flat_map(|y| telling(read(y, curve.frequency_hz)));
+        let mut all: Vec<AmplitudePoint> = telling(curve.model.clone()).into_iter().chain(further).collect();
         all.sort_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
         curve.model_over_amplitude = all;
     }

@@ -8,6 +8,8 @@ use super::amplitude::AmplitudePoint;
 
 /// Most decays beside the model's record.
 const MOST: usize = 8;
+/// Share of its amplitude above which a decay that ends there is slow.
+const SLOW: f64 = 0.5;
 /// Ratio of amplitudes below which there is nothing between them.
 const NEAR: f64 = 1.05;
 
@@ -36,6 +38,16 @@ pub(super) fn decays(
     found
 }
 
+/// The points of a decay of the model that tell its damping: of a slow one those of the inner half, for what a record that begins and
+/// ends abruptly adds to its first and last windows may be more than that damping.
+pub(super) fn telling(points: Vec<AmplitudePoint>) -> Vec<AmplitudePoint> {
+    let quarter = points.len() / 4;
+    match ends(&points) {
+        Some([least, most]) if least > SLOW * most => points[quarter..points.len() - quarter].to_vec(),
+        _ => points,
+    }
+}
+
 /// Least and largest amplitude of a curve; none where it has no points.
 fn ends(points: &[AmplitudePoint]) -> Option<[f64; 2]> {
     let of = |ends: [f64; 2], p: &AmplitudePoint| [ends[0].min(p.amplitude), ends[1].max(p.amplitude)];
@@ -59,6 +71,15 @@ mod tests {
             damping_deviation: 0.0,
         };
         envelope.iter().map(point).collect()
+    }
+
+    #[test]
+    fn the_ends_of_a_slow_decay_tell_nothing() {
+        let told = |envelope: &[f64]| telling(read(envelope)).iter().map(|p| p.amplitude).collect::<Vec<f64>>();
+        assert_eq!(told(&[2.0, 1.9, 1.8, 1.7, 1.6, 1.5, 1.4, 1.3]), [1.8, 1.7, 1.6, 1.5]);
+        assert_eq!(told(&[2.0, 1.0, 0.5, 0.2]), [2.0, 1.0, 0.5, 0.2]);
+        assert_eq!(told(&[2.0]), [2.0]);
+        assert!(told(&[]).is_empty());
     }
 
     /// A model that loses a fifth over a record, of a structure that loses all but a hundredth.
