@@ -10,7 +10,7 @@ use crate::measurement::Run;
 use crate::response::harmonic_balance::{Excitation, ForwardModel};
 use crate::structure::Part;
 
-/// A clamp of which a fifth is left, a tip mode of a dashpot: runs about the first two modes of the beam on it.
+/// Runs about the first two modes of a beam with a dashpot at its tip, on a clamp of which a fifth is left.
 fn runs(held: Part, known: &[Source]) -> Vec<Run> {
     let structure = cantilever(4).with_factors(&[(held, 0.2)]);
     let omegas = structure.modes().unwrap().omega;
@@ -25,9 +25,9 @@ fn runs(held: Part, known: &[Source]) -> Vec<Run> {
     with_noise(&omegas[..2].iter().flat_map(around).map(one).collect::<Vec<_>>(), 1e-3, 7)
 }
 
-/// From rigid supports on corrections end in a valley of soft elements: from one that gives way they find the clamp.
+/// Corrections alone find that it is the clamp that gives way, not the elements beside it.
 #[test]
-fn corrections_begin_at_supports_that_give_way() {
+fn corrections_find_a_clamp_that_gives_way() {
     let (stated, known) = (cantilever(4), [source(Effect::Viscous, &[6], &[0.5])]);
     let held = Part::Support(stated.supports()[0]);
     let runs = runs(held, &known);
