@@ -171,6 +171,11 @@ def mats():
     scipy.io.savemat(OUT / "cells.mat", {"runs": cells, "K": np.diag([1.0, 2.0, 3.0]), "s": scipy.sparse.eye(3, format="csc"), "i16": np.arange(5, dtype=np.int16)})
     expect("cells.mat", "mat", [("runs/{1}", "x", "N", STEP, FORCE), ("runs/{2}", "x", "", STEP, ODD),
                                 ("K", "K", "", None, np.diag([1.0, 2.0, 3.0]).ravel()), ("", "i16", "", None, np.arange(5.0))])
+    mixed = np.empty((2, 3), dtype=object)
+    mixed[0, :], mixed[1, :] = ["force", 12.0, "+Z"], ["acc", 3.0, "-Z"]
+    one_by_one = np.array([["t"] + [float(t) for t in range(300)]], dtype=object)
+    scipy.io.savemat(OUT / "mixed-cells.mat", {"x": FORCE, "dt": STEP, "sensors": mixed, "log": one_by_one}, do_compression=True)
+    expect("mixed-cells.mat", "mat", [("", "x", "", STEP, FORCE)])
     record = np.zeros(3, dtype=[("x", object), ("dt", object)])
     for i, v in enumerate([FORCE, ODD, ACC]):
         record[i]["x"], record[i]["dt"] = v, STEP

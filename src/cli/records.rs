@@ -55,7 +55,7 @@ fn curve(curve: &ModeCurve) -> Value {
         list.iter().map(point_in_json).collect()
     };
     json!({"channel": curve.channel, "frequency_hz": curve.frequency_hz, "measured": points(&curve.measured),
-           "model": points(&curve.model), "lines": lines(&curve.measured)})
+           "model": points(&curve.model), "model_over_amplitude": points(&curve.model_over_amplitude), "lines": lines(&curve.measured)})
 }
 
 /// Straight lines through a curve: damping ratio over amplitude, squared frequency over squared amplitude, logarithms.

@@ -12,8 +12,8 @@
 //! that one product with `A` is needed for each column that ever was in a set.
 
 use super::system::System;
-use dashpot_numerics::{Cholesky, transposed_product};
-use faer::{Mat, MatRef};
+use dashpot_numerics::{Cholesky, with_columns};
+use faer::Mat;
 use std::collections::BTreeMap;
 
 /// Part of a unit column outside of the others below which it is one of them.
@@ -126,8 +126,8 @@ impl<'a> Exchange<'a> {
 
 /// Products of every unit column with a vector.
 fn products(a: &Mat<f64>, norms: &[f64], vector: &[f64]) -> Vec<f64> {
-    let all = transposed_product(a.as_ref(), MatRef::from_column_major_slice(vector, vector.len(), 1));
-    norms.iter().enumerate().map(|(j, norm)| if *norm > 0.0 { all[(j, 0)] / norm } else { 0.0 }).collect()
+    let all = with_columns(a, vector);
+    norms.iter().zip(&all).map(|(norm, product)| if *norm > 0.0 { product / norm } else { 0.0 }).collect()
 }
 
 fn best(gains: &[f64]) -> Option<(f64, usize)> {

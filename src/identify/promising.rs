@@ -5,6 +5,7 @@ use super::error::IdentifyError;
 use super::exchange::Exchange;
 use super::system::System;
 use crate::math::nnls::nnls;
+use dashpot_numerics::with_columns;
 
 /// Columns up to which all are taken.
 pub(super) const MANY: usize = 200;
@@ -32,7 +33,8 @@ pub(super) fn promising(system: &System, forced: &[usize]) -> Result<Vec<usize>,
     }
     let mut residual = left_by(system, &chosen)?;
     while chosen.len() < MANY {
-        let gain = |j: usize| a.col(j).iter().zip(&residual).map(|(x, r)| x * r).sum::<f64>() / norms[j];
+        let along = with_columns(a, &residual);
+        let gain = |j: usize| along[j] / norms[j];
         let mut order: Vec<(f64, usize)> =
             (0..n).filter(|&j| !is_chosen[j] && norms[j] > 0.0).map(|j| (gain(j), j)).collect();
         order.sort_by(|x, y| y.0.total_cmp(&x.0));

@@ -67,7 +67,7 @@ pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figur
     figure
         .points("measured", palette.measured, Look::Dots(3.0), points(&curve.measured))
         .deviation(curve.measured.iter().map(deviation).collect())
-        .points("model", palette.model, Look::Line(1.6), points(&curve.model))
+        .points("model", palette.model, Look::Line(1.6), points(&curve.model_over_amplitude))
 }
 
 /// Whether damping ratios that can be drawn by their logarithm span amplitudes that are far apart.

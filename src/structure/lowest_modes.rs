@@ -7,14 +7,15 @@
 //!
 //! Every new block is made orthogonal to the whole basis (twice), so no mode comes twice; a block of `BLOCK` vectors finds
 //! modes of that multiplicity. One factorisation (n^3 / 3) and some products with the basis take the place of all n modes
-//! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs.
+//! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs, less where the matrices are sparse ([`super::pencil`]).
 
 use super::error::StructureError;
 use super::modes::{self, Modes, failure};
+use super::pencil::{Factor, OfMatrices, Pencil};
 use super::system::SystemMatrices;
 use crate::math::eigen;
 use crate::math::fill::filled;
-use dashpot_numerics::{Cholesky, product, transposed_product};
+use dashpot_numerics::{product, transposed_product};
 use faer::{ColRef, Mat, MatRef};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -35,7 +36,7 @@ const TERMS: usize = 3;
 pub(crate) struct LowestModes {
     /// Modes in ascending order of frequency, shapes n x m.
     pub modes: Modes,
-    factor: Cholesky,
+    factor: Factor,
     shift: f64,
 }
 
@@ -46,23 +47,21 @@ impl LowestModes {
     /// # Errors
     /// [`StructureError::Modes`] when a small eigenvalue problem does not converge.
     pub(crate) fn new(matrices: &SystemMatrices, highest: f64, least: usize) -> Result<Option<Self>, StructureError> {
-        let (k, m) = (matrices.stiffness.as_ref(), matrices.mass.as_ref());
-        let n = m.nrows();
         let shift = SHIFT * highest * highest;
-        let shifted = filled(n, n, |i, j| k[(i, j)] + shift * m[(i, j)]);
-        let Some(factor) = Cholesky::new(shifted.as_ref()) else { return Ok(None) };
-        let found = search(&Dense { matrices, factor: &factor }, shift, highest, least, n)?;
+        let Some(factor) = Factor::new(matrices, shift) else { return Ok(None) };
+        let pencil = OfMatrices { matrices, factor: &factor };
+        let found = search(&pencil, shift, highest, least, pencil.size())?;
         Ok(found.map(|modes| Self { modes, factor, shift }))
     }
 
     /// What the higher modes add to the columns `dofs` of the receptance.
     pub(crate) fn rest(&self, matrices: &SystemMatrices, dofs: &[usize]) -> Vec<Rest> {
-        let n = matrices.mass.nrows();
-        let unit = filled(n, dofs.len(), |i, j| f64::from(u8::from(i == dofs[j])));
-        let mut term = self.without_lowest(self.factor.solve(unit.as_ref()), dofs);
+        let pencil = OfMatrices { matrices, factor: &self.factor };
+        let unit = filled(pencil.size(), dofs.len(), |i, j| f64::from(u8::from(i == dofs[j])));
+        let mut term = self.without_lowest(pencil.solve(unit.as_ref()), dofs);
         let mut terms = Vec::new();
         for _ in 1..TERMS {
-            let next = self.factor.solve(product(matrices.mass.as_ref(), term.as_ref()).as_ref());
+            let next = pencil.solve(pencil.by_mass(term.as_ref()).as_ref());
             terms.push(term);
             term = next;
         }
@@ -96,52 +95,6 @@ impl Rest {
         let x = omega * omega + self.shift;
         let value = |i: usize| self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term[i]);
         (0..self.terms[0].len()).map(value).collect()
-    }
-}
-
-/// Products with the matrices and solutions with `A = K + s M`, n x k each.
-pub(super) trait Pencil {
-    /// Number of rows, n.
-    fn size(&self) -> usize;
-    /// `M X`.
-    fn by_mass(&self, x: MatRef<'_, f64>) -> Mat<f64>;
-    /// `K X`.
-    fn by_stiffness(&self, x: MatRef<'_, f64>) -> Mat<f64>;
-    /// `A^-1 X`.
-    fn solve(&self, x: MatRef<'_, f64>) -> Mat<f64>;
-    /// Largest ratio of the diagonals of stiffness and mass, rad^2/s^2.
-    fn stiffest(&self) -> f64;
-    /// What rounding leaves of a residual over `|M phi|`, rad^2/s^2.
-    fn residual_rounding(&self) -> f64 {
-        0.0
-    }
-}
-
-struct Dense<'a> {
-    matrices: &'a SystemMatrices,
-    factor: &'a Cholesky,
-}
-
-impl Pencil for Dense<'_> {
-    fn size(&self) -> usize {
-        self.matrices.mass.nrows()
-    }
-
-    fn by_mass(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.matrices.mass.as_ref(), x)
-    }
-
-    fn by_stiffness(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.matrices.stiffness.as_ref(), x)
-    }
-
-    fn solve(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        self.factor.solve(x)
-    }
-
-    fn stiffest(&self) -> f64 {
-        let ratio = |i: usize| self.matrices.stiffness[(i, i)] / self.matrices.mass[(i, i)];
-        (0..self.size()).map(ratio).fold(0.0, f64::max)
     }
 }
 

@@ -15,6 +15,7 @@ pub(crate) mod lowest_modes;
 mod lumped_mass;
 pub mod mode_damping;
 pub mod modes;
+mod pencil;
 pub mod points;
 pub(crate) mod reduction;
 mod system;

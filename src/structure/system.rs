@@ -59,6 +59,8 @@ pub struct Structure {
 pub struct Origin {
     /// What the files hold that is not understood but could matter, a sentence each.
     pub notes: Vec<String>,
+    /// Labels of the nodes whose displacements the files state in coordinate systems of their own: here they are along x, y and z.
+    pub turned: Vec<String>,
     /// How a larger model was reduced to the degrees of freedom that are here.
     pub reduction: Option<Reduction>,
     /// Mass of a component that moves with its force cell, kg.
@@ -118,8 +120,13 @@ impl Structure {
         &self.origin
     }
 
-    /// Notes how the structure came about; lumped masses ride on the base like all others.
-    pub(crate) fn set_origin(&mut self, notes: Vec<String>, mut reduction: Option<Reduction>, lumped: &[LumpedMass]) {
+    /// Notes how the structure came about, and which of its nodes were turned; lumped masses ride on the base like all others.
+    pub(crate) fn set_origin(
+        &mut self,
+        (notes, turned): (Vec<String>, Vec<String>),
+        mut reduction: Option<Reduction>,
+        lumped: &[LumpedMass],
+    ) {
         if let Some(reduction) = &mut reduction {
             for extra in lumped {
                 let Some(row) = self.dof(&extra.dof) else { continue };
@@ -128,7 +135,7 @@ impl Structure {
                 }
             }
         }
-        self.origin = Origin { notes, reduction, ..Origin::default() };
+        self.origin = Origin { notes, turned, reduction, ..Origin::default() };
     }
 
     /// Row of the DOF of that label; where no DOF has it, that of node and direction, such as `3z` of a beam.

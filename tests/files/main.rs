@@ -8,3 +8,4 @@ mod projects;
 mod projects_bad;
 mod projects_random;
 mod records;
+mod records_random;

@@ -131,6 +131,10 @@ fn what_is_not_read_is_said() {
         sets.flat_map(|set| set.notes.clone()).chain(file.contents().notes.clone()).collect::<Vec<_>>().join("\n")
     };
     assert!(notes("cells.mat").contains("\"s\" is not read: it is sparse"), "{}", notes("cells.mat"));
+    // Single numbers among texts are words; so many that they are measured are refused.
+    let mixed = notes("mixed-cells.mat");
+    assert!(mixed.contains("sensors: force, acc, 12, 3, +Z, -Z"), "{mixed}");
+    assert!(mixed.contains("\"log\" is not read: its 300 numbers"), "{mixed}");
     assert!(notes("plain.tdms").contains("\"words\" is not read: it is text"), "{}", notes("plain.tdms"));
     assert!(notes("broken-off.tdms").contains("broken off"), "{}", notes("broken-off.tdms"));
     assert!(notes("units-row-latin1.csv").contains("Prüfer: Müller"), "{}", notes("units-row-latin1.csv"));

@@ -18,7 +18,7 @@ pub use eigen::{eigenvalues, generalised_symmetric, real_general, symmetric, sym
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
 pub use fourier::RealTransform;
 pub use lanes::{LANES, dot, sum};
-pub use product::{product, product_transposed, transposed_product};
+pub use product::{product, product_transposed, transposed_product, with_columns};
 pub use rows::{add_product_to_rows, add_to_rows, combine_rows, stride, turn_rows};
 pub use singular::thin_svd;
 pub use small::RowLu;

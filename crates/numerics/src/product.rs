@@ -1,6 +1,8 @@
 //! Products of matrices.
 
+use crate::dot;
 use faer::{Mat, MatRef};
+use pulp::Arch;
 
 /// `A B`, m x n.
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
@@ -15,4 +17,24 @@ pub fn transposed_product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 /// `A B^T`.
 pub fn product_transposed(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     a * b.transpose()
+}
+
+/// `A^T b`, n values: a scalar product a column, which reads the matrix once; products of blocks would pack it first.
+pub fn with_columns(a: &Mat<f64>, b: &[f64]) -> Vec<f64> {
+    Arch::new().dispatch(|| (0..a.ncols()).map(|j| dot(a.col_as_slice(j), b)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{transposed_product, with_columns};
+    use faer::{Mat, MatRef};
+
+    #[test]
+    fn products_with_columns_are_those_of_the_transposed_matrix() {
+        let a = Mat::from_fn(37, 5, |i, j| (1.7 * i as f64 - 0.4 * j as f64).sin());
+        let b: Vec<f64> = (0..37).map(|i| (0.3 * i as f64).cos()).collect();
+        let whole = transposed_product(a.as_ref(), MatRef::from_column_major_slice(&b, 37, 1));
+        let own = with_columns(&a, &b);
+        assert!((0..5).all(|j| (own[j] - whole[(j, 0)]).abs() < 1e-13), "{own:?} {whole:?}");
+    }
 }

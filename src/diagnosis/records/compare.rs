@@ -3,6 +3,7 @@
 
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use super::data::{RecordData, RecordError, Records};
+use super::decays::{decays, telling};
 use super::errors::channel_errors;
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
@@ -43,6 +44,9 @@ pub struct ModeCurve {
     pub measured: Vec<AmplitudePoint>,
     /// Of the model's record.
     pub model: Vec<AmplitudePoint>,
+    /// Of the model over all amplitudes that were measured, least first: from its record and from decays that begin louder and
+    /// quieter.
+    pub model_over_amplitude: Vec<AmplitudePoint>,
 }
 
 /// One record.
@@ -93,7 +97,12 @@ pub fn compare_records(
     let fitted = started(records, effects, control)?;
     let one = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
         let model = fitted.predict(records, r, record.len(), &[])?.channels;
-        Ok(compared(records, record, model))
+        let louder = |factor: f64, c: usize| {
+            let mut start = fitted.clone();
+            start.initial[r].iter_mut().for_each(|y| *y *= factor);
+            start.predict(records, r, record.len(), &[]).ok().map(|mut decay| decay.channels.swap_remove(c))
+        };
+        Ok(compared(records, record, model, &|factor, c| (!control.is_late()).then(|| louder(factor, c)).flatten()))
     };
     let list: Vec<OneRecord> = records.list.iter().enumerate().map(one).collect::<Result<_, _>>()?;
     let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&list.iter().map(of).collect::<Vec<f64>>());
@@ -208,7 +217,10 @@ fn left(record: &RecordData, model: &[Vec<f64>]) -> Vec<Vec<f64>> {
     record.samples.iter().zip(model).map(rest).collect()
 }
 
-fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> OneRecord {
+/// A channel of the model's record from initial states that are so many times as large.
+type Louder<'a> = dyn Fn(f64, usize) -> Option<Vec<f64>> + 'a;
+
+fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>, louder: &Louder) -> OneRecord {
     let deviations = records.deviations(record, &left(record, &model));
     let errors = channel_errors(record, &model, 0..record.len());
     let floors = floors(record, &deviations);
@@ -221,7 +233,7 @@ fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>) -> One
         channels,
         times: times(record, &model),
         bands: bands(record, &model),
-        curves: curves(record, &model),
+        curves: curves(record, &model, louder),
         time: record.run.time().to_vec(),
         measured: record.samples.clone(),
         model,
@@ -286,7 +298,7 @@ fn bands(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
     parts
 }
 
-fn curves(record: &RecordData, model: &[Vec<f64>]) -> Vec<ModeCurve> {
+fn curves(record: &RecordData, model: &[Vec<f64>], louder: &Louder) -> Vec<ModeCurve> {
     let over = |c: &usize| root_mean_square(&record.samples[*c]) / record.noise[*c];
     let Some(c) = (0..record.channels.len()).max_by(|a, b| over(a).total_cmp(&over(b))) else { return Vec::new() };
     // Where a force acts, the motion is not that of a decay: only what follows its end is read.
@@ -300,10 +312,24 @@ fn curves(record: &RecordData, model: &[Vec<f64>]) -> Vec<ModeCurve> {
     let found = peaks(&record.samples[c][first..], record.step, 0.05, 4);
     let width = if found.len() > 1 { MODE_BAND } else { 0.0 };
     let start = record.first_s + first as f64 * record.step;
+    let read =
+        |y: &[f64], frequency_hz: f64| amplitude_curve(&y[first..], record.step, start, Band { frequency_hz, width });
+    let channel = record.channels[c].to_string();
     let curve = |&frequency_hz: &f64| {
-        let read = |y: &[f64]| amplitude_curve(&y[first..], record.step, start, Band { frequency_hz, width });
-        let channel = record.channels[c].to_string();
-        ModeCurve { channel, frequency_hz, measured: read(&record.samples[c]), model: read(&model[c]) }
+        let [measured, model] = [&record.samples[c], &model[c]].map(|y| read(y, frequency_hz));
+        ModeCurve { channel: channel.clone(), frequency_hz, measured, model, model_over_amplitude: Vec::new() }
     };
-    found.iter().map(curve).collect()
+    let mut curves: Vec<ModeCurve> = found.iter().map(curve).collect();
+    // What follows a force begins as that has left it.
+    let louder = |factor: f64| if first == 0 { louder(factor, c) } else { None };
+    let other = curves
+        .first()
+        .map_or_else(Vec::new, |main| decays([&main.measured, &main.model], &louder, &|y| read(y, main.frequency_hz)));
+    for curve in &mut curves {
+        let further = other.iter().flat_map(|y| telling(read(y, curve.frequency_hz)));
+        let mut all: Vec<AmplitudePoint> = telling(curve.model.clone()).into_iter().chain(further).collect();
+        all.sort_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
+        curve.model_over_amplitude = all;
+    }
+    curves
 }

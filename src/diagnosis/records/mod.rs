@@ -10,6 +10,7 @@ mod coarse_steps;
 pub(crate) mod compare;
 mod conclusion;
 pub(crate) mod data;
+mod decays;
 pub(crate) mod diagnose;
 mod errors;
 mod evidence;

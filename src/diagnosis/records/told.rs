@@ -237,3 +237,40 @@ fn is_plainest(told: &FittedRecords, all: &FittedRecords) -> bool {
 pub(super) fn added_as_told(told: &[Added], added: &Added) -> Added {
     told.iter().find(|t| t.source.is_same(&added.source)).unwrap_or(added).clone()
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::{oscillator, source};
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::effects::Effect;
+
+    /// Logarithm of the factor on a known dashpot that is told beside `effect`, and whether it stays free: of two tenths, known to one.
+    fn told_beside(effect: Source) -> (f64, bool) {
+        let structure = oscillator(1.0, 400.0);
+        let wave = |n: usize| 1e-2 * (-1e-2 * n as f64).exp() * (0.2 * n as f64).cos();
+        let run = decay(1e-2, vec![(0..400).map(wave).collect()]);
+        let known = [source(Effect::Viscous, &[0], &[2.0])];
+        let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let mut deviations = vec![0.1; effect.parameters.len() + 2];
+        deviations.push(0.0);
+        let start = FittedRecords::start(&records, &[effect]);
+        let fit = FittedRecords { known: vec![0.2], chi_square: 400.0, count: 400, deviations, ..start };
+        let (own, sizes) = search.by_sizes(&fit).swap_remove(0);
+        (own.known[0], sizes[0])
+    }
+
+    /// A power law of exponent 1 is the dashpot: what it takes over the dashpot loses, however uncertain the share of each.
+    #[test]
+    fn a_known_law_keeps_its_size_beside_one_that_contains_it() {
+        assert_eq!(told_beside(source(Effect::Power, &[0], &[0.4, 1.1])), (0.2, true));
+        assert_eq!(told_beside(source(Effect::Coulomb, &[0], &[0.4])), (0.0, false));
+        let elsewhere = Source::known(Effect::Power, Place::Whole(None), &[0.4, 1.1]);
+        assert_eq!(told_beside(elsewhere), (0.0, false));
+    }
+}

@@ -286,3 +286,84 @@ fn without_open<'a>(reference: ReferenceModel<'a>, found: &mut Found) -> Result<
     }
     Ok(reference)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::{source, three_masses};
+    use crate::common::runs::{channel, run};
+    use crate::control::Control;
+    use crate::diagnosis::Problem;
+    use crate::diagnosis::residual::data::Data;
+    use crate::diagnosis::residual::prediction::Predictor;
+    use crate::diagnosis::result::Suggestion;
+    use crate::diagnosis::updating::parameters::Updating;
+    use crate::effects::{Effect, Source};
+    use crate::measurement::{Quantity, Run};
+    use crate::response::harmonic_balance::{Excitation, ForwardModel};
+    use faer::c64;
+    use std::sync::Arc;
+
+    fn known() -> Source {
+        source(Effect::Viscous, &[0], &[0.8])
+    }
+
+    fn hidden() -> Source {
+        source(Effect::CubicStiffness, &[2], &[4e6])
+    }
+
+    /// Runs at two levels about the first mode of a chain whose ground spring is 2 % stiffer than stated and which hides a cubic spring.
+    fn runs() -> Vec<Run> {
+        let (structure, deviation) = (three_masses([1.02, 1.0, 1.0]), 1e-7);
+        let model = ForwardModel::new(&structure, &[known()]).unwrap();
+        let one = |(omega, force): (f64, f64)| {
+            let amplitude = c64::new(force, 0.0);
+            let excitation = Excitation::sine(omega, 2, amplitude);
+            let (sources, control) = ([known(), hidden()], Control::unattended());
+            let response = model.at(omega).respond(&sources, &excitation, &FINAL, None, &control).unwrap();
+            let motion = |dof: usize| (1..=3).map(|h| response.amplitude(dof, h)).collect();
+            let zero = c64::new(0.0, 0.0);
+            let mut channels = vec![channel(Quantity::Force, 2, vec![amplitude, zero, zero], deviation)];
+            channels.extend((0..3).map(|dof| channel(Quantity::Displacement, dof, motion(dof), deviation)));
+            run(format!("{omega} rad/s, {force} N"), omega, channels)
+        };
+        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(one).collect()
+    }
+
+    /// The effects that are left of a set of which the data know the parameters of those in `open` not, and the factor on the ground
+    /// spring of the model beside them.
+    fn left_of(effects: &[Source], open: &[usize]) -> (Vec<Source>, f64) {
+        let (stated, sources, runs) = (three_masses([1.0; 3]), vec![known()], runs());
+        let data = Data::new(&Problem { structure: &stated, sources: &sources, runs: &runs }).unwrap();
+        let predictor = Arc::new(Predictor::new(&stated, sources.clone(), &data).unwrap());
+        let (control, early) = (Control::unattended(), |_: &[Suggestion]| {});
+        let model = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
+        let updating = Updating::all(&stated, &sources, &data);
+        let reference = model.updated(&updating, effects, &Vec::new()).unwrap();
+        let mut fit = reference.estimator().fit(effects, REFITTED, &SEARCH, &Vec::new()).unwrap();
+        open.iter().for_each(|&k| fit.deviations[k].fill(f64::NAN));
+        let noise = reference.noise.clone();
+        let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
+        let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
+        let settled = without_open(reference, &mut found).unwrap();
+        let ground = settled.linearisation.updating.structure(&stated).matrices().unwrap().stiffness[(0, 0)] - 1e4;
+        (found.by_size.pop().unwrap().fits.remove(0).effects, ground / 2e4)
+    }
+
+    /// The model is settled beside what is left: its spring has moved to where the records have it.
+    #[test]
+    fn an_effect_that_the_data_do_not_know_goes_from_a_set_and_the_model_settles() {
+        let idle = source(Effect::Coulomb, &[1], &[1e-6]);
+        let (left, ground) = left_of(&[hidden(), idle], &[1]);
+        assert!(matches!(left.as_slice(), [only] if only.is_same(&hidden())), "{left:?}");
+        assert!((left[0].parameters[0] / 4e6 - 1.0).abs() < 0.02, "{left:?}");
+        assert!((ground - 1.02).abs() < 2e-3, "{ground}");
+    }
+
+    #[test]
+    fn an_effect_that_corrections_cannot_stand_for_stays() {
+        let dashpot = source(Effect::Viscous, &[1], &[1e-3]);
+        assert_eq!(left_of(&[hidden(), dashpot], &[0]).0.len(), 2);
+    }
+}

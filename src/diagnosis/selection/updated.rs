@@ -368,3 +368,6 @@ fn leverage(data: &Data, updating: &Updating, common: &[RunSlopes], predictions:
     };
     data.runs.iter().zip(common).zip(predictions).map(of_run).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -327,6 +327,8 @@ fn unknown(part: Part) -> Unknown {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models::cantilever_parameters;
+    use crate::structure::beam::{BeamParameters, Supports};
     use crate::structure::chain::ChainParameters;
 
     #[test]
@@ -344,5 +346,21 @@ mod tests {
         assert!((moved.structure(&structure).matrices().unwrap().stiffness[(0, 1)] + 22.0).abs() < 1e-9);
         assert!((moved.known(&known)[0].parameters[0] - 4.5).abs() < 1e-12);
         assert!((moved.standardised()[0] - 100.0 * 2.0_f64.ln()).abs() < 1e-9);
+    }
+
+    /// Both supports of a beam, then one of them, each as soft as the element beside it; all else as it was.
+    #[test]
+    fn supports_give_way_together_and_each_alone() {
+        let beam = BeamParameters { supports: Supports::ClampedClamped, ..cantilever_parameters(4) };
+        let supports = beam.build(&[]).unwrap().supports();
+        assert_eq!(supports.len(), 2);
+        let held = |k: usize| UpdatingParameter::Structure(Part::Support(supports[k]));
+        let parameters = vec![UpdatingParameter::Structure(Part::Mass), held(0), UpdatingParameter::Known(0), held(1)];
+        let updating = Updating { parameters, values: vec![0.1, 0.0, 0.2, 0.0], ..Updating::default() };
+        let values: Vec<Vec<f64>> = updating.giving_way().into_iter().map(|u| u.values).collect();
+        let half = 0.5_f64.ln();
+        assert_eq!(values, [[0.1, half, 0.2, half], [0.1, 0.0, 0.2, half], [0.1, half, 0.2, 0.0]]);
+        let without = Updating { parameters: updating.parameters[..1].to_vec(), values: vec![0.1], ..updating };
+        assert!(without.giving_way().is_empty());
     }
 }

@@ -16,7 +16,8 @@ use std::path::Path;
 const FIRST_ID: usize = 900_001;
 
 pub(super) fn export(identified: &Identified, path: &Path) -> Export {
-    let (dashpots, warnings) = dashpots(identified, "NASTRAN");
+    let (dashpots, mut warnings) = dashpots(identified, "NASTRAN");
+    warnings.extend(in_own_systems(identified.structure, identified.viscous));
     let mut text = heading(identified);
     for warning in &warnings {
         let _ = writeln!(text, "$ {warning}");
@@ -33,6 +34,22 @@ pub(super) fn export(identified: &Identified, path: &Path) -> Export {
     whole.push_str(&dmig("CDAMP", identified.viscous, identified.structure));
     export.add(beside(path, "dmig"), whole);
     export
+}
+
+/// That damped grid points of the model have coordinate systems of their own (field CD), where that is so: the cards are in the basic one.
+fn in_own_systems(structure: &Structure, viscous: &Mat<f64>) -> Option<String> {
+    let is_damped = |row: usize| (0..viscous.ncols()).any(|column| viscous[(row, column)] != 0.0);
+    let nodes = structure.nodes();
+    let label = |row: usize| nodes.get(structure.dofs()[row].node).map(|node| node.label.as_str());
+    let damped: Vec<&str> = (0..structure.len()).filter(|row| is_damped(*row)).filter_map(label).collect();
+    let turned: Vec<&str> =
+        structure.origin().turned.iter().map(String::as_str).filter(|node| damped.contains(node)).collect();
+    (!turned.is_empty()).then(|| {
+        format!(
+            "grid points {} move in coordinate systems of their own (CD), and the components here are x, y and z of the basic system: give these points CD 0 before the cards are used",
+            turned.join(", ")
+        )
+    })
 }
 
 /// `CDAMP2` in the large form, two lines.
@@ -91,4 +108,26 @@ fn dmig(name: &str, values: &Mat<f64>, structure: &Structure) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_own_systems;
+    use crate::common::models::cantilever;
+    use faer::Mat;
+
+    /// Told of grid points that are damped and turned, not of those that are but one of both.
+    #[test]
+    fn coordinate_systems_of_damped_grid_points_are_told() {
+        let mut structure = cantilever(3);
+        let labels: Vec<String> =
+            [0, 2].map(|row: usize| structure.nodes()[structure.dofs()[row].node].label.clone()).into();
+        let mut viscous = Mat::<f64>::zeros(6, 6);
+        viscous[(2, 2)] = 0.5;
+        assert_eq!(in_own_systems(&structure, &viscous), None);
+        structure.set_origin((Vec::new(), labels.clone()), None, &[]);
+        let said = in_own_systems(&structure, &viscous).unwrap_or_default();
+        assert!(said.starts_with(&format!("grid points {} move", labels[1])) && said.lines().count() == 1, "{said}");
+        assert_eq!(in_own_systems(&structure, &Mat::zeros(6, 6)), None);
+    }
 }

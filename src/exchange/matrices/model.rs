@@ -62,6 +62,8 @@ pub(crate) struct Model {
     pub lines: Vec<[String; 2]>,
     /// What the files hold that is not understood but could matter.
     pub notes: Vec<String>,
+    /// Labels of the nodes whose displacements the files state in coordinate systems of their own.
+    pub turned: Vec<String>,
 }
 
 /// Kind of a file by its name and first words.
@@ -136,7 +138,8 @@ pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
         lines.clear();
     }
     drop_unknown(&mut lines, nodes.as_deref());
-    Ok(Model { system, dofs, nodes, lines, notes })
+    let turned = geometry.turned.iter().map(|node| node.node.to_string()).collect();
+    Ok(Model { system, dofs, nodes, lines, notes, turned })
 }
 
 /// Both matrices with their rows in basic directions, and the nodes and lines beside them.

@@ -34,7 +34,7 @@ pub(super) fn structure(
         lines: lines.as_deref(),
     })
     .map_err(Problem::Table)?;
-    let mut notes = std::mem::take(&mut model.notes);
+    let (mut notes, turned) = (std::mem::take(&mut model.notes), std::mem::take(&mut model.turned));
     let wrong = |error: StructureError| Problem::Structure(Box::new(error));
     let (parameters, reduction) = match &files.reduce {
         None => (whole(model).map_err(wrong)?, None),
@@ -45,7 +45,7 @@ pub(super) fn structure(
     };
     let parameters = with_all_nodes(parameters, &mut notes);
     let mut structure = parameters.build(lumped).map_err(wrong)?;
-    structure.set_origin(notes, reduction, lumped);
+    structure.set_origin((notes, turned), reduction, lumped);
     Ok(structure)
 }
 

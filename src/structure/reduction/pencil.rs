@@ -2,8 +2,9 @@
 
 use super::request::SparseSystem;
 use crate::structure::error::StructureError;
-use crate::structure::lowest_modes::{Pencil, search};
+use crate::structure::lowest_modes::search;
 use crate::structure::modes::{Modes, modes};
+use crate::structure::pencil::Pencil;
 use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric};
 use faer::{Mat, MatRef};

@@ -99,6 +99,8 @@ pub(crate) struct CellMap<'a> {
     figure: &'a Figure,
     zoom: Zoom,
     kept: Kept,
+    /// A line above the map that what is read may cover.
+    line: Option<Rect>,
 }
 
 impl<'a> CellMap<'a> {
@@ -110,7 +112,13 @@ impl<'a> CellMap<'a> {
         if let Some(sight) = zoom.placed(field.whole) {
             kept.sight = [0, 1].map(|axis| field.widened(axis, sight[axis]));
         }
-        Self { name, figure, zoom, kept }
+        Self { name, figure, zoom, kept, line: None }
+    }
+
+    /// The same below a line of words that gives way to what is read where there is no room beside the map.
+    #[must_use]
+    pub(crate) fn below(self, line: Option<Rect>) -> Self {
+        Self { line, ..self }
     }
 
     /// The columns and rows in sight.
@@ -143,11 +151,39 @@ impl<'a> CellMap<'a> {
         let lines = cursors.words(self.figure, Some(&Reading { axis: height, value: &read }));
         let marked: Vec<Pos2> =
             cursors.places().iter().filter_map(|at| self.seen(area, *at)).map(|(at, _)| at).collect();
-        cursors::paint(ui.painter(), &lines, ui.palette(), &|size| {
-            corner(size, area, self.kept.field.down.then_some(response.rect), &marked)
-        });
+        self.read_out(ui, &lines, (area, response.rect), &marked);
         ui.data_mut(|d| d.insert_temp(id(self.name), self.kept));
         self.zoom.end(ui, &[(response, self.figure, self.kept.sight)]);
+    }
+
+    /// Shows what is read where it covers no cell: under a table where the `room` of its pane is left, beside it, or in the line above it;
+    /// else in a corner of the map.
+    fn read_out(&self, ui: &Ui, lines: &[String], (area, room): (Rect, Rect), marked: &[Pos2]) {
+        let (painter, palette, sight) = (ui.painter(), ui.palette(), ui.clip_rect());
+        let size = cursors::size(painter, lines);
+        if !self.kept.field.down {
+            return cursors::paint(painter, lines, palette, corner(size, area, marked));
+        }
+        let below = Rect::from_min_size(area.left_bottom() + vec2(0.0, GAP), size);
+        if room.contains_rect(below) {
+            return cursors::paint(painter, lines, palette, below.min);
+        }
+        let top = area.top().min(sight.bottom() - size.y).max(sight.top());
+        let beside = Rect::from_min_size(pos2(area.right() + 2.0 * GAP, top), size);
+        if sight.contains_rect(beside) {
+            return cursors::paint(painter, lines, palette, beside.min);
+        }
+        let joined = [lines.join("    ")];
+        let single = cursors::size(painter, &joined);
+        let above = self.line.map(|line| Rect::from_min_size(line.left_center() - vec2(0.0, 0.5 * single.y), single));
+        match above.filter(|above| above.right() <= sight.right()) {
+            Some(above) => {
+                let painter = painter.with_clip_rect(above.union(sight));
+                painter.rect_filled(self.line.unwrap_or(above), 0.0, palette.pane);
+                cursors::paint(&painter, &joined, palette, above.min);
+            }
+            None => cursors::paint(painter, lines, palette, corner(size, area, marked)),
+        }
     }
 
     /// Box, pan, and all.
@@ -255,13 +291,8 @@ impl<'a> CellMap<'a> {
     }
 }
 
-/// Where a box of what is read stands: under a table where the `room` of its pane is left, else in the corner of the map in which no
-/// marked cell is.
-fn corner(size: Vec2, area: Rect, room: Option<Rect>, marked: &[Pos2]) -> Pos2 {
-    let below = Rect::from_min_size(area.left_bottom() + vec2(0.0, GAP), size);
-    if room.is_some_and(|room| room.contains_rect(below)) {
-        return below.min;
-    }
+/// Where a box of what is read stands within a map: in the corner in which no marked cell is.
+fn corner(size: Vec2, area: Rect, marked: &[Pos2]) -> Pos2 {
     let inner = area.shrink(GAP);
     let ends = [inner.min, inner.max - size];
     let corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| pos2(ends[i].x, ends[j].y));

@@ -6,8 +6,9 @@ use crate::display::units::{self, Frequency};
 use crate::plots::figure::{Axis, Figure, Look, Scale, Ticks};
 use crate::window::language::tr;
 use crate::window::theme::{self, Palette};
-use egui::{Align2, Color32, Context, Id, Pos2, Rect, RichText, Vec2, pos2, vec2};
+use egui::{Align2, Color32, Context, Galley, Id, Pos2, Rect, RichText, Vec2, pos2, vec2};
 use egui_plot::{LineStyle, MarkerShape, PlotPoint, PlotUi, Points, VLine};
+use std::sync::Arc;
 
 /// Distance within which a cursor takes the place of a point, points.
 const REACH: f32 = 24.0;
@@ -140,23 +141,29 @@ fn nearest(plot: &PlotUi<'_>, figure: &Figure, at: PlotPoint) -> Option<[f64; 2]
     (best.0 <= REACH).then_some(best.1)
 }
 
-/// Lines of what is read, in a box whose upper left corner `corner` gives for its size.
-pub(crate) fn paint(painter: &egui::Painter, lines: &[String], palette: &Palette, corner: &dyn Fn(Vec2) -> Pos2) {
+/// Size of the box of these lines, points.
+pub(crate) fn size(painter: &egui::Painter, lines: &[String]) -> Vec2 {
+    let sizes = lines.iter().map(|line| laid_out(painter, line).size());
+    sizes.fold(Vec2::ZERO, |s, line| vec2(s.x.max(line.x), s.y + line.y)) + vec2(12.0, 8.0)
+}
+
+/// Lines of what is read, in a box with this upper left corner.
+pub(crate) fn paint(painter: &egui::Painter, lines: &[String], palette: &Palette, corner: Pos2) {
     if lines.is_empty() {
         return;
     }
-    let font = theme::font(theme::size::SMALL);
-    let galleys: Vec<_> =
-        lines.iter().map(|line| painter.layout_no_wrap(tr(line), font.clone(), palette.ink)).collect();
-    let size = galleys.iter().fold(Vec2::ZERO, |s, g| vec2(s.x.max(g.size().x), s.y + g.size().y)) + vec2(12.0, 8.0);
-    let ground = Rect::from_min_size(corner(size), size);
+    let ground = Rect::from_min_size(corner, size(painter, lines));
     painter.rect(ground, 4.0, palette.pane, theme::hair(palette.line), egui::StrokeKind::Inside);
     let mut at = ground.min + vec2(6.0, 4.0);
-    for galley in galleys {
+    for galley in lines.iter().map(|line| laid_out(painter, line)) {
         let height = galley.size().y;
-        painter.galley(at, galley, Color32::PLACEHOLDER);
+        painter.galley(at, galley, palette.ink);
         at = pos2(at.x, at.y + height);
     }
+}
+
+fn laid_out(painter: &egui::Painter, line: &str) -> Arc<Galley> {
+    painter.layout_no_wrap(tr(line), theme::font(theme::size::SMALL), Color32::PLACEHOLDER)
 }
 
 #[cfg(test)]

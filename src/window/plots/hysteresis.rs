@@ -1,7 +1,7 @@
 //! Loops side by side in their pane.
 
 use super::export;
-use super::show::{Place, key_row};
+use super::show::{Place, RULER, key_row};
 use crate::display::words;
 use crate::plots::figure::Figure;
 use crate::plots::hysteresis::Loop;
@@ -33,7 +33,7 @@ pub(crate) fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
                             ui.label(tr(words::capital(&one.name)));
                             ui.hint(format!("area {}", one.energies()));
                             let id = format!("loop {k} {j}");
-                            let place = Place { id: &id, height: size.y - 48.0, group: None, ruler: true };
+                            let place = Place { id: &id, height: size.y - 48.0, group: None, ruler: RULER };
                             let figure = figure.clone().displayed();
                             let out = place.show(ui, &figure);
                             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());

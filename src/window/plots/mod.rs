@@ -3,6 +3,7 @@
 pub(crate) mod bars;
 pub(crate) mod cell_map;
 pub(crate) mod charts;
+mod corner;
 pub(crate) mod cursors;
 pub mod export;
 pub(crate) mod heatmap;

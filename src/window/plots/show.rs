@@ -1,6 +1,7 @@
 //! Plots on the screen: drag pans, right drag zooms a box, double click shows all, the pointer reads out values, the context
 //! menu copies and exports.
 
+use super::corner::AxesCorner;
 use super::polyline::Polyline;
 use super::zoom::{Sight, Zoom};
 use super::{axis, cursors, curve, export, frame};
@@ -17,10 +18,8 @@ use egui_plot::{
     MarkerShape, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, Text, VLine,
 };
 
-/// Share of the height of a square plot, above its lower left corner, that belongs to the labels of the axis of x: those of
-/// both axes are as long there, and would touch.
-const CORNER: f64 = 0.04;
-
+/// Breadth of the axis of y, points.
+const NUMBERS_OF_Y: f32 = 62.0;
 /// Least height of a plot in a stack without the axis of x, points; below it the stack scrolls.
 const LEAST: f32 = 42.0;
 /// Room that the largest marks take at the edge of a plot, points.
@@ -28,8 +27,14 @@ const MARK: f32 = 12.0;
 /// Height of a pane below which keys stand close, and of a key, points.
 const CRAMPED: f32 = 220.0;
 const KEY: f32 = 14.0;
+/// Height of a row of keys, points.
+const KEYS: f32 = 26.0;
 /// Height of the axis of x with its name, points.
-const RULER: f32 = 36.0;
+pub(crate) const RULER: f32 = 36.0;
+/// The same of numbers alone, and least height of a plot above them, points: before a plot is cut off by its pane, plots are lower and
+/// the axis has no name, which the values under the pointer tell.
+const NUMBERS: f32 = 18.0;
+const LOWEST: f32 = 34.0;
 
 /// Plots of one sheet: its title, and each plot with its share of the height.
 #[derive(Debug)]
@@ -47,23 +52,29 @@ pub(crate) struct Stack<'a> {
 impl Stack<'_> {
     /// Shows the plots under each other in the room there is.
     pub(crate) fn show(self, ui: &mut Ui) {
-        if self.keys {
+        let [least, lowest] =
+            [[LEAST, RULER], [LOWEST, NUMBERS]].map(|[plot, axis]| plot * self.figures.len() as f32 + axis);
+        // Before a plot is cut off, its keys give way: the pointer tells the name of a curve.
+        let in_all = ui.available_height() - 4.0;
+        if self.keys && !(lowest..lowest + KEYS).contains(&in_all) {
             key_row(ui, self.figures.iter().map(|(f, _)| f));
         }
         let room = ui.available_height() - 4.0;
-        let least = LEAST * self.figures.len() as f32 + RULER;
         if room >= least {
-            return self.plots(ui, room);
+            return self.plots(ui, room, RULER);
+        }
+        if room >= lowest {
+            return self.plots(ui, room, NUMBERS);
         }
         ScrollArea::vertical().id_salt(("stack", self.id)).auto_shrink(false).show(ui, |ui| {
             // The uppermost number stands half above the plot.
             ui.add_space(theme::space::XS + 2.0);
-            self.plots(ui, least);
+            self.plots(ui, least, RULER);
         });
     }
 
-    /// The plots in `height` points.
-    fn plots(self, ui: &mut Ui, height: f32) {
+    /// The plots in `height` points, `below` of which the axis of x takes.
+    fn plots(self, ui: &mut Ui, height: f32, below: f32) {
         let group = (self.figures.len() > 1).then(|| Id::unique(("stack", self.id)));
         let last = self.figures.len().saturating_sub(1);
         let zoom = Zoom::begin(ui.ctx(), self.id);
@@ -71,10 +82,10 @@ impl Stack<'_> {
         let mut responses = Vec::new();
         for (k, (figure, share)) in self.figures.into_iter().enumerate() {
             let figure = figure.displayed();
-            let ruler = if k == last { RULER } else { 0.0 };
+            let ruler = if k == last { below } else { 0.0 };
             // The axis of x takes room from the plots in proportion, not from the last one alone.
-            let own = share * (height - RULER) + ruler;
-            let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler: k == last };
+            let own = share * (height - below) + ruler;
+            let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler };
             let out = place.draw(ui, &figure, (&zoom, k));
             panels.push(Panel { figure, bounds: sight(&out) });
             responses.push(out.response);
@@ -144,8 +155,8 @@ pub(crate) struct Place<'a> {
     pub height: f32,
     /// Plots whose axes of x and cursors move together.
     pub group: Option<Id>,
-    /// Whether the axis of x is labelled.
-    pub ruler: bool,
+    /// Height of the axis of x, points: none, numbers alone, or with its name ([`RULER`]).
+    pub ruler: f32,
 }
 
 /// What is in sight of a plot.
@@ -167,33 +178,34 @@ impl Place<'_> {
     fn draw(&self, ui: &mut Ui, figure: &Figure, (zoom, number): (&Zoom, usize)) -> PlotResponse<()> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
-        let (xt, yt, square) = (figure.x.clone(), figure.y.clone(), figure.square);
-        let x_label = if self.ruler { fitting(ui, &figure.x, ui.available_width() - 80.0) } else { String::new() };
-        let clear = self.height - if self.ruler { RULER } else { 0.0 };
+        let (xt, yt) = (figure.x.clone(), figure.y.clone());
+        let named = self.ruler >= RULER;
+        let x_label = if named { fitting(ui, &figure.x, ui.available_width() - 80.0) } else { String::new() };
+        let ruled = self.ruler > 0.0;
+        let clear = self.height - self.ruler;
         let y_label = fitting(ui, &figure.y, clear);
+        let size = [ui.available_width() - NUMBERS_OF_Y, clear];
+        let corner = AxesCorner::of(ui, self.id, size, figure.square && ruled);
+        let (along_x, along_y) = (corner.clone(), corner.clone());
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
-            .min_thickness(if self.ruler { 32.0 } else { 14.0 })
+            .min_thickness(if named { 32.0 } else { 14.0 })
             .label_spacing(if figure.x.ticks == Ticks::Whole {
                 Rangef::new(12.0, 18.0)
             } else {
                 Rangef::new(22.0, 34.0)
             })
-            .formatter(move |mark, _| tr(ticks::label(&xt, own(mark))));
+            .formatter(move |mark, range| along_x.across(tr(ticks::label(&xt, own(mark))), mark.value, range));
         let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
-            .min_thickness(62.0)
+            .min_thickness(NUMBERS_OF_Y)
             // Lines of text lie closer than words beside each other.
             .label_spacing(Rangef::new(13.0, 20.0))
-            .formatter(move |mark, range| {
-                let height = range.end() - range.start();
-                let corner = square && self.ruler && mark.value - range.start() < CORNER * height;
-                if corner { String::new() } else { tr(ticks::label(&yt, own(mark))) }
-            });
+            .formatter(move |mark, range| along_y.upwards(tr(ticks::label(&yt, own(mark))), mark.value, range));
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
             .custom_y_axes(vec![y_axis])
             .height(self.height)
-            .show_axes([self.ruler, true])
+            .show_axes([ruled, true])
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, (MARK / clear.max(1.0)).max(0.08)))
             .label_formatter(near(figure));
@@ -227,8 +239,9 @@ impl Place<'_> {
             figure.labels.iter().for_each(|l| words(plot, figure, l));
             read = cursors::show(plot, self.id, figure, palette).words(figure, None);
         });
+        corner.keep(ui);
         let frame = *out.transform.frame();
-        cursors::paint(&ui.painter_at(frame), &read, palette, &|_| frame.left_top() + Vec2::splat(6.0));
+        cursors::paint(&ui.painter_at(frame), &read, palette, frame.left_top() + Vec2::splat(6.0));
         out
     }
 }

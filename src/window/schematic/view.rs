@@ -17,6 +17,10 @@ const NODE_REACH: f32 = 4.0;
 /// Height of the caption and of the letter above an arrow, and half the width of that letter, points.
 const CAPTION: f32 = 36.0;
 const ARROW: f32 = 14.0;
+/// Height of a pane below which the caption stands where it covers nothing or not at all, and distance of the caption from its edges,
+/// there and elsewhere, points.
+const LOW: f32 = 140.0;
+const ASIDE: [f32; 2] = [5.0, 12.0];
 /// What stands between the parts of a caption.
 pub(crate) const SEPARATOR: &str = "   ·   ";
 
@@ -92,15 +96,20 @@ impl View<'_> {
             wire.paint(&painter, palette, canvas.id.with("wire"), area);
         }
         paint::paint(&painter, palette, self.scene, &layout, &marks);
-        let corner = area.left_top() + Vec2::splat(12.0);
-        self.caption(ui, corner, &layout, area);
+        let is_told = self.caption(ui, &layout, area);
         let node = canvas.hover_pos().filter(|_| hovered.is_none()).and_then(|at| self.node_at(&layout, at));
         self.tooltip(&canvas, hovered, node, drag.is_some());
+        if !is_told && drag.is_none() && hovered.is_none() {
+            canvas.on_hover_text_at_pointer(tr(self.caption));
+        }
         intents
     }
 
-    /// What is shown, beside the arrows that stand as high: before the first, else behind the last, else cut short with dots.
-    fn caption(&self, ui: &Ui, corner: Pos2, layout: &Layout, area: Rect) {
+    /// What is shown, beside the arrows that stand as high: before the first, else behind the last, else cut short with dots. Gives
+    /// back whether it is told: in a low pane only where it covers nothing, for the head of the window and the cards tell it too.
+    fn caption(&self, ui: &Ui, layout: &Layout, area: Rect) -> bool {
+        let is_low = area.height() < LOW;
+        let corner = area.left_top() + vec2(ASIDE[1], ASIDE[usize::from(!is_low)]);
         let high = |ends: &&[Pos2; 2]| ends[0].y.min(ends[1].y) < corner.y + CAPTION && ends[0].x > corner.x;
         let arrows: Vec<&[Pos2; 2]> = layout.exciters.iter().map(|(_, ends)| ends).filter(high).collect();
         let edge = area.right() - theme::space::S;
@@ -117,13 +126,18 @@ impl View<'_> {
             std::iter::successors(Some(self.caption), |text| text.split_once(SEPARATOR).map(|(_, rest)| rest));
         let all: Vec<&str> = shorter.collect();
         let text = all.iter().copied().find(fits).unwrap_or_else(|| all.last().copied().unwrap_or_default());
-        if !text.is_empty() {
-            // A structure in space, a halo or, in a low pane, the symbol of a source may reach behind the words.
-            let size = vec2(width(ui, text, font.clone()).min(end - start), theme::size::SMALL + 4.0);
-            let rect = Rect::from_min_size(middle - vec2(0.0, 0.5 * size.y), size).expand(3.0);
-            ui.painter().rect_filled(rect, 3.0, Palette::of(ui.visuals()).canvas.gamma_multiply(0.85));
+        if text.is_empty() {
+            return true;
         }
+        // A structure in space, a halo or, in a low pane, the symbol of a source may reach behind the words.
+        let size = vec2(width(ui, text, font.clone()).min(end - start), theme::size::SMALL + 4.0);
+        let rect = Rect::from_min_size(middle - vec2(0.0, 0.5 * size.y), size);
+        if is_low && layout.covers(rect) {
+            return false;
+        }
+        ui.painter().rect_filled(rect.expand(3.0), 3.0, Palette::of(ui.visuals()).canvas.gamma_multiply(0.85));
         elided(ui, text, font, weak, middle, end - start);
+        true
     }
 
     /// A node in the accessibility tree for every DOF and source, reached by Tab and pressed with Enter.

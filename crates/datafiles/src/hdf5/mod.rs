@@ -211,17 +211,7 @@ impl Walk {
             };
             entries.push(Entry { name, ..entry });
         }
-        let texts: Option<Vec<String>> = entries
-            .iter()
-            .map(|entry| match &entry.node {
-                Node::Text(texts) => Some(texts.join(" ")),
-                _ => None,
-            })
-            .collect();
-        match texts {
-            Some(texts) if !texts.is_empty() => Node::Text(texts),
-            _ => Node::Group(entries),
-        }
+        Node::of_cell(entries)
     }
 
     fn numbers(&mut self, dataset: Dataset, attributes: &[(String, String)]) -> Read<Node> {

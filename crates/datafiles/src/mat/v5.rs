@@ -239,18 +239,7 @@ impl Walk<'_> {
         for i in 0..count {
             entries.extend(self.inner(format!("{{{}}}", i + 1), depth)?);
         }
-        // A cell of texts is a list of names.
-        let texts: Option<Vec<String>> = entries
-            .iter()
-            .map(|entry| match &entry.node {
-                Node::Text(texts) => Some(texts.join(" ")),
-                _ => None,
-            })
-            .collect();
-        Ok(match texts {
-            Some(texts) if !texts.is_empty() => Node::Text(texts),
-            _ => Node::Group(entries),
-        })
+        Ok(Node::of_cell(entries))
     }
 
     fn fields(&mut self, header: &Header, depth: usize) -> Read<Node> {

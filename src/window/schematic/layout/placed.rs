@@ -5,6 +5,9 @@ use crate::window::solid::Projection;
 use egui::{Pos2, Rect, Vec2};
 use nalgebra::Vector3;
 
+/// Half the breadth of the symbols of springs, sources and sensors, points.
+const HALF_SYMBOL: f32 = 6.0;
+
 /// A DOF that can be pointed at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Handle {
@@ -115,5 +118,14 @@ impl Layout {
     /// The handle of a DOF.
     pub fn handle(&self, dof: usize) -> Option<&Handle> {
         self.handles.iter().find(|h| h.dof == dof)
+    }
+    /// Whether a node, a mass, a sensor, a spring or a source stands in `rect`.
+    pub fn covers(&self, rect: Rect) -> bool {
+        let nodes = self.handles.iter().map(|h| Rect::from_center_size(h.pos, Vec2::splat(2.0 * h.radius)));
+        let sensors = self.sensors.iter().map(|(_, at)| Rect::from_center_size(*at, Vec2::splat(2.0 * HALF_SYMBOL)));
+        let parts = self.springs.iter().chain(self.sources.iter().flat_map(|source| &source.parts));
+        let symbols = parts.map(|part| Rect::from_two_pos(part.glyph[0], part.glyph[1]).expand(HALF_SYMBOL));
+        let masses = self.masses.iter().map(|mass| mass.rect);
+        nodes.chain(sensors).chain(symbols).chain(masses).any(|drawn| drawn.intersects(rect))
     }
 }

@@ -50,7 +50,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
         ui.allocate_ui(vec2(width, PLOTS), |ui| {
             ui.set_width(width);
             let id = format!("{} {k}", figure.title);
-            let place = show::Place { id: &id, height: PLOTS, group: None, ruler: true };
+            let place = show::Place { id: &id, height: PLOTS, group: None, ruler: show::RULER };
             let out = place.show(ui, &figure);
             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
             panels.push(Panel { figure, bounds: [[low[0], high[0]], [low[1], high[1]]] });

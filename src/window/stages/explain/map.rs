@@ -43,6 +43,8 @@ pub(super) struct Map<'a> {
     pub selected: Option<(usize, &'a str)>,
     /// Whether it is that of an earlier model while the present one is computed.
     pub stale: bool,
+    /// The line of words above it.
+    pub line: Option<Rect>,
 }
 
 impl Map<'_> {
@@ -51,6 +53,7 @@ impl Map<'_> {
         let figure = self.axes();
         let whole = self.grid;
         let map = CellMap::begin(ui.ctx(), NAME, &figure, Field::table(whole.runs.len(), whole.channels.len()));
+        let map = map.below(self.line);
         if map.is_whole() {
             return self.in_sight(ui, most, whole, map);
         }

@@ -20,7 +20,7 @@ use crate::window::language::{t, tr};
 use crate::window::opened::Opened;
 use crate::window::theme::{size, space};
 use crate::window::widgets::UiExt;
-use egui::{Align, Label, Layout, RichText, Ui};
+use egui::{Align, Label, Layout, Rect, RichText, Ui};
 use std::sync::Arc;
 
 /// What the map and the cell show.
@@ -83,9 +83,7 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     // In a low pane the errors, which stand above and below it too, leave their line to the cells and their scale.
     let beside = if untaken.is_some() { CRAMPED } else { SENTENCE + map::height(&grid, map::LEAST) + LEGEND };
     let is_low = ui.available_height() < beside && look.in_bar[0];
-    if !is_low {
-        head(ui, &mut look, previewed);
-    }
+    let line = (!is_low).then(|| head(ui, &mut look, previewed));
     if let Some(said) = untaken {
         not_taken_over(ui, said, is_low, asks);
     }
@@ -100,7 +98,7 @@ pub(crate) fn error_map(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask
     if is_low {
         ui.spacing_mut().item_spacing.y = 0.0;
     }
-    let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale };
+    let map = Map { project: p, grid: &grid, scale, selected, stale: shown.stale, line };
     // The cells come first: what is left over is said in a line of its own where they are high enough beside it.
     let (room, said) = (ui.available_height() - if is_low { LOW_LEGEND } else { LEGEND }, left_over(previewed));
     let with_words = room - SENTENCE >= map::height(&grid, LOW);
@@ -211,8 +209,8 @@ pub(crate) fn way(ui: &mut Ui, opened: &Opened<'_>, asks: &mut Vec<Ask>) {
     ledger::show(ui, &Scene { document, explained: &opened.derived.explained }, asks);
 }
 
-/// Title and order of the map.
-fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) {
+/// Title and order of the map; gives back where the title stands.
+fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) -> Rect {
     let energy = if comparison.energy_error.is_finite() {
         format!(", energy error {}", in_words(comparison.energy_error))
     } else {
@@ -221,15 +219,13 @@ fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) {
     let text = format!("error {}{energy}; cells in %", in_words(comparison.error));
     let words = Label::new(RichText::new(tr(&text)).size(size::SMALL).color(ui.palette().weak)).truncate();
     if look.in_bar[0] {
-        ui.add(words);
-        return;
+        return ui.add(words).rect;
     }
-    ui.horizontal(|ui| {
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            super::switches::order(ui, look);
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(words));
-        });
-    });
+    let beside = |ui: &mut Ui| {
+        super::switches::order(ui, look);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(words).rect).inner
+    };
+    ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), beside).inner).inner
 }
 
 /// That what was identified does not act in the model yet, where that is so.
