@@ -8,7 +8,7 @@ use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::{median, root_mean_square};
 use crate::measurement::{Channel, Kind, TransientRun};
-use crate::response::transient::{SampledForces, TransientError, TransientModel, TransientSetup};
+use crate::response::transient::{TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
 use crate::structure::{Part, Structure, StructureError};
 use dashpot_numerics::RealTransform;
@@ -26,11 +26,6 @@ const OVERSAMPLED: f64 = 20.0;
 /// Samples that a record keeps in any case, and that are enough of a long one.
 const FEWEST: usize = 2000;
 const MANY: usize = 8000;
-/// Phase of the highest seen motion that one step of the model may cover, rad.
-const STEP_PHASE: f64 = 0.2;
-/// The same in the course of a fit, where what longer steps miss is put right.
-const COARSE_PHASE: f64 = 0.6;
-
 /// Why records cannot be compared or explained.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
@@ -94,15 +89,6 @@ pub struct RecordData {
     pub median_hz: f64,
     /// Highest frequency at which the motion stands out, Hz.
     pub highest_hz: f64,
-}
-
-/// How long the steps of a model are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Steps {
-    /// As long as its motion allows.
-    Fine,
-    /// Longer, for the course of a fit.
-    Coarse,
 }
 
 /// All that is fitted.
@@ -276,38 +262,6 @@ impl RecordData {
     pub fn is_empty(&self) -> bool {
         self.samples[0].is_empty()
     }
-
-    /// Steps of the model from one sample to the next, `step` s later, where a law is nonlinear; each covers no more than `most` rad
-    /// of the highest motion.
-    pub(super) fn steps_between(&self, step: f64, most: f64) -> usize {
-        let phase = TAU * self.highest_hz.min(3.0 * self.median_hz) * step;
-        ((phase / most).ceil() as usize).clamp(1, 8)
-    }
-
-    /// Whether there are longer steps than [`Self::substeps`] for the course of a fit.
-    pub(super) fn has_coarse_steps(&self) -> bool {
-        self.steps(Steps::Coarse) < self.substeps
-    }
-
-    /// Steps of the model from one sample to the next where a law is nonlinear.
-    fn steps(&self, steps: Steps) -> usize {
-        match steps {
-            Steps::Fine => self.substeps,
-            Steps::Coarse => self.steps_between(self.step, COARSE_PHASE).min(self.substeps),
-        }
-    }
-
-    /// The measured forces of the first `samples` samples.
-    pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        self.excitation_in(samples, linear, Steps::Fine)
-    }
-
-    /// The same in steps of some length.
-    pub(super) fn excitation_in(&self, samples: usize, linear: bool, steps: Steps) -> SampledForces {
-        let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
-        let substeps = if linear { 1 } else { self.steps(steps) };
-        SampledForces { step: self.step, samples, forces, substeps }
-    }
 }
 
 /// Number of modes that are followed one by one: those of the motion that stands out, and those that a driven record plainly shows.
@@ -356,7 +310,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     record.dominant_hz = dominant_hz(&record);
     record.median_hz = median_hz(&record).max(record.dominant_hz);
     record.highest_hz = highest_hz(&record);
-    record.substeps = record.steps_between(step, STEP_PHASE);
+    record.substeps = record.fine_steps();
     Ok(record)
 }
 

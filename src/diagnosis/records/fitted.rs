@@ -1,7 +1,8 @@
 //! A model with the parameters that were fitted to some records, and what it predicts.
 
-use super::data::{RecordError, Records, Steps};
+use super::data::{RecordError, Records};
 use super::errors::channel_errors;
+use super::steps::Steps;
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::response::transient::{TransientParameter, TransientResponse};

@@ -11,10 +11,11 @@
 //! several laws at one place may share it.
 
 use super::coarse_steps::Defect;
-use super::data::{RecordError, Steps};
+use super::data::RecordError;
 use super::fitted::FittedRecords;
 use super::normal::{Normal, Products, RecordDerivatives, RecordPart};
 use super::problem::FitProblem;
+use super::steps::Steps;
 use crate::response::transient::TransientParameter;
 use dashpot_numerics::dot;
 
@@ -145,7 +146,7 @@ mod tests {
     #[test]
     fn what_is_held_serves_another_law() {
         let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
-        let wave = |dof: usize| (0..400).map(|n| 1e-2 * (0.3 * f64::from(n) + dof as f64).sin()).collect();
+        let wave = |dof: usize| (0..400).map(|n| 1e-2 * (0.12 * f64::from(n) + dof as f64).sin()).collect();
         let run = decay(4e-3, vec![wave(0), wave(1)]);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();

@@ -44,6 +44,7 @@ mod shape_errors;
 mod single_change;
 pub mod spectrum;
 mod starts;
+mod steps;
 mod supports;
 mod telling;
 mod told;

@@ -2,9 +2,10 @@
 //! corrections, and the step of Levenberg and Marquardt that follows from them.
 
 use super::coarse_steps::Defect;
-use super::data::{RecordData, RecordError, Steps};
+use super::data::{RecordData, RecordError};
 use super::fitted::FittedRecords;
 use super::problem::FitProblem;
+use super::steps::Steps;
 use crate::response::transient::{TransientError, TransientParameter};
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;

@@ -9,7 +9,7 @@
 //! corrections, shapes, offsets and initial states are free beside the law. No motion is expanded from few sensors, and a law that
 //! is weak beside the errors of the model is weighed as the fit itself will weigh it; a fit that has lost the phase tells nothing.
 
-use super::data::{RecordData, RecordError, Records, Steps};
+use super::data::{RecordData, RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
@@ -17,6 +17,7 @@ use super::normal::RecordDerivatives;
 use super::problem::{FitProblem, Free};
 use super::regression::foremost;
 use super::search::Search;
+use super::steps::Steps;
 use super::variables::scales;
 use crate::effects::{Effect, Leg, Place, Source, State};
 use crate::response::transient::{Hold, TransientModel, TransientSetup, force_along};

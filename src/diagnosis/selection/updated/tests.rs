@@ -1,3 +1,5 @@
+//! Corrections of a clamp that gives way, alone and beside effects; sets of effects that the data do not know.
+
 #![allow(clippy::unwrap_used, reason = "tests")]
 use super::*;
 use crate::common::models::{cantilever, source};
