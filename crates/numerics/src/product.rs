@@ -32,7 +32,7 @@ mod tests {
     #[test]
     fn products_with_columns_are_those_of_the_transposed_matrix() {
         let a = Mat::from_fn(37, 5, |i, j| (1.7 * i as f64 - 0.4 * j as f64).sin());
-        let b: Vec<f64> = (0..37).map(|i| (0.3 * i as f64).cos()).collect();
+        let b: Vec<f64> = (0..37).map(|i| (0.3 * f64::from(i)).cos()).collect();
         let whole = transposed_product(a.as_ref(), MatRef::from_column_major_slice(&b, 37, 1));
         let own = with_columns(&a, &b);
         assert!((0..5).all(|j| (own[j] - whole[(j, 0)]).abs() < 1e-13), "{own:?} {whole:?}");

@@ -67,9 +67,10 @@ fn share(value: f64, range: &RangeInclusive<f64>) -> f64 {
 mod tests {
     use super::AxesCorner;
     use egui::Id;
+    use std::rc::Rc;
 
     fn corner(gives_way: bool, was_taken: bool) -> AxesCorner {
-        AxesCorner { id: Id::NULL, size: [500.0, 80.0], gives_way, was_taken, is_taken: Default::default() }
+        AxesCorner { id: Id::NULL, size: [500.0, 80.0], gives_way, was_taken, is_taken: Rc::default() }
     }
 
     #[test]
