@@ -1,8 +1,9 @@
 //! Products of matrices.
 
-use crate::dot;
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the wide instructions")]
+
+use crate::lanes::{Wide, dot, widest};
 use faer::{Mat, MatRef};
-use pulp::Arch;
 
 /// `A B`, m x n.
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
@@ -21,7 +22,19 @@ pub fn product_transposed(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 
 /// `A^T b`, n values: a scalar product a column, which reads the matrix once; products of blocks would pack it first.
 pub fn with_columns(a: &Mat<f64>, b: &[f64]) -> Vec<f64> {
-    Arch::new().dispatch(|| (0..a.ncols()).map(|j| dot(a.col_as_slice(j), b)).collect())
+    widest(WithColumns(a, b))
+}
+
+struct WithColumns<'a>(&'a Mat<f64>, &'a [f64]);
+
+impl Wide for WithColumns<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn call(self) -> Vec<f64> {
+        let Self(a, b) = self;
+        (0..a.ncols()).map(|j| dot(a.col_as_slice(j), b)).collect()
+    }
 }
 
 #[cfg(test)]

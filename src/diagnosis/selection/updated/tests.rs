@@ -1,4 +1,4 @@
-//! Corrections of a clamp that gives way, alone and beside effects; sets of effects that the data do not know.
+//! Corrections alone, of a beam whose clamp gives way.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 use super::*;
