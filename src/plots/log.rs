@@ -28,21 +28,14 @@ pub(crate) fn decades(input: &GridInput, room: f64) -> Vec<GridMark> {
         .collect()
 }
 
-/// Label of a decade: `0.01`, `1`, `100`, `1e−6`; nothing at the lines between.
-pub(crate) fn label(mark: GridMark) -> String {
-    if mark.step_size < 1.0 {
-        return String::new();
-    }
-    let exponent = mark.value.round() as i32;
-    match exponent {
-        -3..=-1 => format!("{:.*}", -exponent as usize, 10f64.powi(exponent)),
-        0..=4 => format!("{:.0}", 10f64.powi(exponent)),
-        _ => format!("1e{exponent}").replace('-', "−"),
-    }
+/// Lines for labels `room` points apart: decades where at least two of them have one, else as [`one_two_five`].
+pub(crate) fn lines(input: &GridInput, room: f64) -> Vec<GridMark> {
+    let marks = decades(input, room);
+    if marks.iter().filter(|m| m.step_size >= 1.0).count() > 1 { marks } else { one_two_five(input, room) }
 }
 
-/// Step that tells a line at a round number of a short range from decades and the lines between.
-const ROUND: f64 = 0.05;
+/// Longest step of a line at a round number of a short range: less than that of a line without a label.
+const ROUND: f64 = 0.14;
 
 /// Decades and the lines between; where fewer than two of 1, 2 and 5 are in sight, lines at round numbers.
 pub(crate) fn one_two_five(input: &GridInput, room: f64) -> Vec<GridMark> {
@@ -58,8 +51,10 @@ pub(crate) fn one_two_five(input: &GridInput, room: f64) -> Vec<GridMark> {
     let ends = [low, high].map(|v| 10f64.powf(v));
     let step = round_step((ends[1] - ends[0]).max(f64::MIN_POSITIVE), 3.0);
     let first = (ends[0] / step).ceil() as i64;
+    // A label needs room for its step.
+    let step_size = (0.25 * (high - low)).min(ROUND);
     (first..first + 8)
-        .map(|k| GridMark { value: (k as f64 * step).log10(), step_size: ROUND })
+        .map(|k| GridMark { value: (k as f64 * step).log10(), step_size })
         .filter(|mark| mark.value <= high)
         .collect()
 }
@@ -74,10 +69,13 @@ fn is_decade(value: f64) -> bool {
     (value - value.round()).abs() < 1e-9
 }
 
-/// Label of such a line: 1, 2 and 5 of each decade, and every round number of a short range.
-pub(crate) fn one_two_five_label(mark: GridMark) -> String {
-    if mark.step_size == UNLABELLED || (mark.step_size != ROUND && !leads(mark.value)) {
+/// Label of a line: decades as `0.01`, `1`, `100`, `1e−6`, others in as many figures as they have; nothing at the lines between.
+pub(crate) fn label(mark: GridMark) -> String {
+    if mark.step_size == UNLABELLED {
         return String::new();
+    }
+    if is_decade(mark.value) {
+        return decade(mark.value.round() as i32);
     }
     let plain = 10f64.powf(mark.value);
     let text = significant(plain, if plain < 1.0 { 3 } else { 4 });
@@ -89,9 +87,17 @@ pub(crate) fn one_two_five_label(mark: GridMark) -> String {
     }
 }
 
+fn decade(exponent: i32) -> String {
+    match exponent {
+        -3..=-1 => format!("{:.*}", -exponent as usize, 10f64.powi(exponent)),
+        0..=4 => format!("{:.0}", 10f64.powi(exponent)),
+        _ => format!("1e{exponent}").replace('-', "−"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{decades, label, one_two_five, one_two_five_label};
+    use super::{decades, label, lines, one_two_five};
     use crate::plots::grid::GridInput;
     use crate::plots::ticks::UPWARDS;
 
@@ -119,11 +125,24 @@ mod tests {
     fn a_short_range_has_round_numbers_and_a_long_one_has_1_2_and_5() {
         let labels = |low: f64, high: f64| -> Vec<String> {
             let input = GridInput { bounds: (low.log10(), high.log10()), base_step_size: 0.01 };
-            one_two_five(&input, UPWARDS).into_iter().map(one_two_five_label).filter(|l| !l.is_empty()).collect()
+            one_two_five(&input, UPWARDS).into_iter().map(label).filter(|l| !l.is_empty()).collect()
         };
         assert_eq!(labels(0.9, 11.0), ["1", "2", "5", "10"]);
         assert_eq!(labels(0.03, 0.11), ["0.05", "0.1"]);
         assert_eq!(labels(6.1, 8.9), ["7", "8"]);
         assert_eq!(labels(0.9e-4, 3e-4), ["1e−4", "2e−4"]);
+    }
+    #[test]
+    fn a_range_within_a_decade_has_numbers() {
+        let labels = |low: f64, high: f64, points: f64| -> Vec<String> {
+            let input = GridInput { bounds: (low, high), base_step_size: 8.0 * (high - low) / points };
+            lines(&input, UPWARDS).into_iter().map(label).filter(|l| !l.is_empty()).collect()
+        };
+        assert_eq!(labels(2.1, 2.55, 90.0), ["200", "300"]);
+        assert_eq!(labels(-0.2, 0.9, 90.0), ["1", "2", "5"]);
+        assert_eq!(labels(-2.0, 0.5, 300.0), ["0.01", "0.1", "1"]);
+        // A label is written where its step has thirteen points.
+        let marks = lines(&GridInput { bounds: (0.72, 0.98), base_step_size: 8.0 * 0.26 / 80.0 }, UPWARDS);
+        assert!(marks.len() > 1 && marks.iter().all(|m| m.step_size * 80.0 / 0.26 > 13.0));
     }
 }

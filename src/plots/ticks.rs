@@ -24,7 +24,7 @@ pub const UPWARDS: f64 = 36.0;
 pub fn marks(axis: &Axis, input: &GridInput, room: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     match (&axis.ticks, axis.scale) {
-        (Ticks::Auto, Scale::Log) => log::decades(input, room),
+        (Ticks::Auto, Scale::Log) => log::lines(input, room),
         (Ticks::OneTwoFive, Scale::Log) => log::one_two_five(input, room),
         (Ticks::Whole | Ticks::Names(_), _) => {
             let step = (3.0 * input.base_step_size).ceil().max(((high - low) / 24.0).ceil()).max(1.0);
@@ -51,8 +51,7 @@ fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
 /// What stands beside a line.
 pub fn label(axis: &Axis, mark: GridMark) -> String {
     match (&axis.ticks, axis.scale) {
-        (Ticks::OneTwoFive, Scale::Log) => log::one_two_five_label(mark),
-        (Ticks::Auto, Scale::Log) => log::label(mark),
+        (Ticks::Auto | Ticks::OneTwoFive, Scale::Log) => log::label(mark),
         (Ticks::Names(names), _) => {
             let k = mark.value.round();
             let whole = (mark.value - k).abs() < 1e-6 && k >= 0.0;

@@ -1,12 +1,12 @@
 //! Plots on the screen: drag pans, right drag zooms a box, double click shows all, the pointer reads out values, the context
 //! menu copies and exports.
 
-use super::corner::AxesCorner;
+use super::corner::{AxesCorner, with_unit};
 use super::polyline::Polyline;
 use super::zoom::{Sight, Zoom};
 use super::{axis, cursors, curve, export, frame};
 use crate::display::format::significant;
-use crate::plots::figure::{Axis, Data, Figure, Label, Look, Series, Ticks};
+use crate::plots::figure::{Axis, Data, Figure, Label, Look, Scale, Series, Ticks};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::plots::{grid, ticks};
 use crate::window::language::{tf, tr};
@@ -174,38 +174,47 @@ impl Place<'_> {
         out
     }
 
-    /// Draws a plot, the one of that number in its history of zooms.
-    fn draw(&self, ui: &mut Ui, figure: &Figure, (zoom, number): (&Zoom, usize)) -> PlotResponse<()> {
+    /// Axes of a plot: their names where there is room, numbers that give way to each other in the corner.
+    fn axes(&self, ui: &Ui, figure: &Figure, corner: &AxesCorner) -> (AxisHints<'static>, AxisHints<'static>) {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
-        let (xt, yt) = (figure.x.clone(), figure.y.clone());
-        let named = self.ruler >= RULER;
-        let x_label = if named { fitting(ui, &figure.x, ui.available_width() - 80.0) } else { String::new() };
-        let ruled = self.ruler > 0.0;
-        let clear = self.height - self.ruler;
-        let y_label = fitting(ui, &figure.y, clear);
-        let size = [ui.available_width() - NUMBERS_OF_Y, clear];
-        let corner = AxesCorner::of(ui, self.id, size, figure.square && ruled);
         let (along_x, along_y) = (corner.clone(), corner.clone());
+        let named = self.ruler >= RULER;
+        let x_label = if named { fitting(ui, &x, ui.available_width() - 80.0) } else { String::new() };
+        let y_label = fitting(ui, &y, self.height - self.ruler);
+        // An axis without a name tells its unit beside a number.
+        let unit = if !named && x.scale == Scale::Linear { tr(&x.unit) } else { String::new() };
+        let breadth = f64::from(ui.available_width() - NUMBERS_OF_Y);
+        let spacing = if x.ticks == Ticks::Whole { Rangef::new(12.0, 18.0) } else { Rangef::new(22.0, 34.0) };
         let x_axis = axis(AxisHints::new_x(), palette, &x_label)
             .min_thickness(if named { 32.0 } else { 14.0 })
-            .label_spacing(if figure.x.ticks == Ticks::Whole {
-                Rangef::new(12.0, 18.0)
-            } else {
-                Rangef::new(22.0, 34.0)
-            })
-            .formatter(move |mark, range| along_x.across(tr(ticks::label(&xt, own(mark))), mark.value, range));
+            .label_spacing(spacing)
+            .formatter(move |mark, range| {
+                let label = along_x.across(tr(ticks::label(&x, own(mark))), mark.value, range);
+                with_unit(label, &unit, (mark.value, mark.step_size), range, breadth)
+            });
         let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
             .min_thickness(NUMBERS_OF_Y)
             // Lines of text lie closer than words beside each other.
             .label_spacing(Rangef::new(13.0, 20.0))
-            .formatter(move |mark, range| along_y.upwards(tr(ticks::label(&yt, own(mark))), mark.value, range));
+            .formatter(move |mark, range| along_y.upwards(tr(ticks::label(&y, own(mark))), mark.value, range));
+        (x_axis, y_axis)
+    }
+
+    /// Draws a plot, the one of that number in its history of zooms.
+    fn draw(&self, ui: &mut Ui, figure: &Figure, (zoom, number): (&Zoom, usize)) -> PlotResponse<()> {
+        let palette = ui.palette();
+        let (x, y) = (figure.x.clone(), figure.y.clone());
+        let clear = self.height - self.ruler;
+        let size = [ui.available_width() - NUMBERS_OF_Y, clear];
+        let corner = AxesCorner::of(ui, self.id, size, figure.square && self.ruler > 0.0);
+        let (x_axis, y_axis) = self.axes(ui, figure, &corner);
         let mut plot = frame(ui, self.id)
             .custom_x_axes(vec![x_axis])
             .custom_y_axes(vec![y_axis])
             .height(self.height)
-            .show_axes([ruled, true])
+            .show_axes([self.ruler > 0.0, true])
             .coordinates_formatter(Corner::RightTop, read_out(&figure.x, &figure.y))
             .set_margin_fraction(vec2(figure.margin, (MARK / clear.max(1.0)).max(0.08)))
             .label_formatter(near(figure));
