@@ -7,6 +7,7 @@
 //! with `K_p`, `M_p` the share of part `p`: a range of elements, a spring, the stiffness of one mode, a point mass, a support
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
+use super::elastic_supports::{ElasticSupports, HeldColumn};
 use super::mode_damping::{DampingOfMode, modal_pattern};
 use super::system::{Element, Structure, StructureKind, SystemMatrices};
 use faer::Mat;
@@ -88,24 +89,11 @@ impl Structure {
         })
     }
 
-    /// What a rigid support of the held DOF `h` adds to one that gives way: with `u_h = -g b^T u`, `b = k_h / k_hh` (static
-    /// condensation, Guyan 1965) and `g = 1 - f`,
-    ///
-    /// ```text
-    /// K' = K - g k_h k_h^T / k_hh,      M' = M - g (m_h b^T + b m_h^T) + g^2 m_hh b b^T
-    /// ```
-    ///
-    /// The share is what is linear in `g`.
+    /// The change of the matrices by a support, of one that is rigid to first order in what it gives way.
     fn of_support(&self, held: HeldDof) -> Option<Share> {
-        let element = self.elements.get(held.element)?;
-        let (k, m, h) = (&element.stiffness, &element.mass, held.dof);
-        let mut share = Share::default();
-        for (i, row, j, column) in element.free_pairs() {
-            share.stiffness.push((row, column, k[(i, h)] * k[(h, j)] / k[(h, h)]));
-            let coupled = (m[(i, h)] * k[(h, j)] + k[(i, h)] * m[(h, j)]) / k[(h, h)];
-            share.mass.push((row, column, coupled));
-        }
-        Some(share)
+        let elastic = self.origin.elastic_supports.as_ref();
+        let known = elastic.and_then(|supports| supports.share(&self.elements, held));
+        known.or_else(|| HeldColumn::new(&self.elements, held).map(|column| column.share()))
     }
 
     /// The support of each end of a beam that most likely gives way: the rotation of a clamp, the translation of a pin.
@@ -116,14 +104,6 @@ impl Structure {
             ends.into_iter().flatten().map(move |dof| HeldDof { element, dof }).collect::<Vec<_>>()
         };
         self.elements.iter().enumerate().flat_map(of_element).collect()
-    }
-
-    /// `m_hh b b^T`, kg.
-    fn of_held_mass(&self, held: HeldDof) -> Triplets {
-        let Some(element) = self.elements.get(held.element) else { return Triplets::new() };
-        let (k, h) = (&element.stiffness, held.dof);
-        let size = element.mass[(h, h)] / (k[(h, h)] * k[(h, h)]);
-        element.free_pairs().map(|(i, row, j, column)| (row, column, size * k[(i, h)] * k[(h, j)])).collect()
     }
 
     /// Label of the node of a held DOF.
@@ -138,7 +118,9 @@ impl Structure {
     }
 
     fn of_elements(&self, [first, last]: [usize; 2], mass: bool) -> Triplets {
-        let mut entries = Triplets::new();
+        let elastic = self.origin.elastic_supports.as_ref();
+        let held = elastic.map(|supports| supports.of_elements(&self.elements, [first, last], mass));
+        let mut entries = held.unwrap_or_default();
         for element in self.elements.iter().take(last + 1).skip(first) {
             let local = if mass { &element.mass } else { &element.stiffness };
             for (a, row) in element.dofs.iter().enumerate() {
@@ -156,29 +138,45 @@ impl Structure {
     #[must_use]
     pub fn with_factors(&self, factors: &[(Part, f64)]) -> Self {
         let mut changed = self.clone();
-        let Some(mut matrices) = changed.matrices.take() else { return changed };
+        let Some(stated) = changed.matrices.take() else { return changed };
+        let (mut rigid, mut supports) = match changed.origin.elastic_supports.take() {
+            Some(elastic) => (elastic.rigid, elastic.factors),
+            None => (stated, Vec::new()),
+        };
+        // On rigid supports.
+        let bare = Self { matrices: Some(rigid.clone()), ..changed.clone() };
         for &(part, factor) in factors {
-            if let Some(share) = self.share(part) {
-                add(&mut matrices.stiffness, &share.stiffness, factor - 1.0);
-                add(&mut matrices.mass, &share.mass, factor - 1.0);
-            }
             if let Part::Support(held) = part {
-                add(&mut matrices.mass, &self.of_held_mass(held), (factor - 1.0).powi(2));
-                changed.elements.get_mut(held.element).into_iter().for_each(|e| e.release(held.dof, factor));
+                ElasticSupports::add(&mut supports, held, factor);
+            } else if let Some(share) = bare.share(part) {
+                add(&mut rigid.stiffness, &share.stiffness, factor - 1.0);
+                add(&mut rigid.mass, &share.mass, factor - 1.0);
             }
             changed.scale_elements(part, factor);
         }
+        let (mut elastic, mut matrices) = match ElasticSupports::new(rigid.clone(), supports, &changed.elements) {
+            Some((elastic, matrices)) => (Some(elastic), matrices),
+            None => (None, rigid),
+        };
         changed.matrices = Some(matrices.clone());
         // Modes are those of the structure with its parts as they are now.
-        changed.add_modes(&mut matrices, factors);
-        for &(part, factor) in factors {
-            match part {
-                Part::Stiffness => matrices.stiffness *= faer::Scale(factor),
-                Part::Mass => matrices.mass *= faer::Scale(factor),
-                _ => {}
+        let corrected = changed.of_modes(&matrices, factors);
+        for matrices in [Some(&mut matrices), elastic.as_mut().map(|e| &mut e.rigid)].into_iter().flatten() {
+            if let Some(corrected) = &corrected {
+                matrices.stiffness += corrected;
+            }
+            for &(part, factor) in factors {
+                match part {
+                    Part::Stiffness => matrices.stiffness *= faer::Scale(factor),
+                    Part::Mass => matrices.mass *= faer::Scale(factor),
+                    _ => {}
+                }
             }
         }
-        changed.matrices = Some(matrices);
+        for &(part, factor) in factors.iter().filter(|(part, _)| matches!(part, Part::Stiffness | Part::Mass)) {
+            changed.scale_range([0, self.elements.len().saturating_sub(1)], part == Part::Mass, factor);
+        }
+        (changed.matrices, changed.origin.elastic_supports) = (Some(matrices), elastic);
         changed.correct_damping(factors);
         changed
     }
@@ -217,38 +215,39 @@ impl Structure {
     }
 
     fn scale_elements(&mut self, part: Part, factor: f64) {
-        let all = [0, self.elements.len().saturating_sub(1)];
-        let (range, mass) = match part {
-            Part::Stiffness => (all, false),
-            Part::Mass => (all, true),
-            Part::ElementStiffness(range) => (range, false),
-            Part::ElementMass(range) => (range, true),
-            _ => return,
-        };
-        for element in self.elements.iter_mut().take(range[1] + 1).skip(range[0]) {
+        match part {
+            Part::ElementStiffness(range) => self.scale_range(range, false, factor),
+            Part::ElementMass(range) => self.scale_range(range, true, factor),
+            _ => {}
+        }
+    }
+
+    fn scale_range(&mut self, [first, last]: [usize; 2], mass: bool, factor: f64) {
+        for element in self.elements.iter_mut().take(last + 1).skip(first) {
             let local = if mass { &mut element.mass } else { &mut element.stiffness };
             *local *= faer::Scale(factor);
         }
     }
 
-    /// `K + sum (f - 1) omega_r^2 (M phi_r)(M phi_r)^T` for the modes among `factors`.
-    fn add_modes(&self, matrices: &mut SystemMatrices, factors: &[(Part, f64)]) {
+    /// `sum (f - 1) omega_r^2 (M phi_r)(M phi_r)^T` for the modes among `factors`; none where none is.
+    fn of_modes(&self, matrices: &SystemMatrices, factors: &[(Part, f64)]) -> Option<Mat<f64>> {
         if !factors.iter().any(|(part, f)| matches!(part, Part::Mode(_)) && *f != 1.0) {
-            return;
+            return None;
         }
-        let Ok(modes) = self.modes() else { return };
+        let modes = self.modes().ok()?;
         let n = self.len();
+        let mut stiffness = Mat::zeros(n, n);
         for &(part, factor) in factors {
             let Part::Mode(r) = part else { continue };
-            let shape = modes.shapes.col_as_slice(r);
-            let weighted = modal_pattern(&matrices.mass, shape);
+            let weighted = modal_pattern(&matrices.mass, modes.shapes.col_as_slice(r));
             let size = (factor - 1.0) * modes.omega[r].powi(2);
             for j in 0..n {
                 for i in 0..n {
-                    matrices.stiffness[(i, j)] += size * weighted[i] * weighted[j];
+                    stiffness[(i, j)] += size * weighted[i] * weighted[j];
                 }
             }
         }
+        Some(stiffness)
     }
 
     /// Springs to the ground and between DOFs, where all are translations and the stiffness couples few: those of a chain,
@@ -271,30 +270,7 @@ impl Structure {
     }
 }
 
-impl Element {
-    /// Pairs of free DOFs: local DOF and row of each.
-    fn free_pairs(&self) -> impl Iterator<Item = (usize, usize, usize, usize)> {
-        let free = |(local, row): (usize, &Option<usize>)| row.map(|row| (local, row));
-        let free: Vec<(usize, usize)> = self.dofs.iter().enumerate().filter_map(free).collect();
-        free.clone()
-            .into_iter()
-            .flat_map(move |(i, row)| free.clone().into_iter().map(move |(j, column)| (i, row, j, column)))
-    }
-
-    /// Takes the share `1 - factor` of the support of local DOF `h` away from what is held there: with the motion
-    /// `u_h = -g b^T u` taken out, `k_hh` is `k_hh / f` and `m_h` is `m_h - g m_hh b`, so that shares are those of what is left.
-    fn release(&mut self, h: usize, factor: f64) {
-        let size = (1.0 - factor) * self.mass[(h, h)] / self.stiffness[(h, h)];
-        for i in (0..self.dofs.len()).filter(|&i| i != h) {
-            let moved = size * self.stiffness[(i, h)];
-            self.mass[(i, h)] -= moved;
-            self.mass[(h, i)] -= moved;
-        }
-        self.stiffness[(h, h)] /= factor;
-    }
-}
-
-fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
+pub(super) fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
     for &(i, j, value) in entries {
         matrix[(i, j)] += factor * value;
     }
@@ -304,8 +280,7 @@ fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::common::models::{cantilever_parameters, chain, short_cantilever};
-    use crate::structure::beam::{BeamParameters, Supports};
+    use crate::common::models::{chain, short_cantilever};
 
     #[test]
     fn frequencies_move_as_the_factors_say() {
@@ -350,51 +325,5 @@ mod tests {
         let SystemMatrices { mass, stiffness } = stiffer.matrices().unwrap();
         assert!((stiffness[(0, 1)] + 22.0).abs() < 1e-12 && (stiffness[(0, 0)] - 27.0).abs() < 1e-12);
         assert!((mass[(1, 1)] - 3.0).abs() < 1e-12);
-    }
-
-    /// A clamp whose rotation is held by a spring: natural frequencies of the beam with that DOF and spring in its matrices.
-    fn on_a_spring(beam: &BeamParameters, spring: f64) -> Vec<f64> {
-        let free = BeamParameters { supports: Supports::FreeFree, ..beam.clone() }.build(&[]).unwrap();
-        let SystemMatrices { mass, stiffness } = free.matrices().unwrap();
-        let n = free.len() - 1;
-        let mass = Mat::from_fn(n, n, |i, j| mass[(i + 1, j + 1)]);
-        let mut stiffness = Mat::from_fn(n, n, |i, j| stiffness[(i + 1, j + 1)]);
-        stiffness[(0, 0)] += spring;
-        let matrices = Some(SystemMatrices { mass, stiffness });
-        let held = Structure { matrices, dofs: free.dofs[1..].to_vec(), elements: Vec::new(), ..free };
-        held.modes().unwrap().omega
-    }
-
-    #[test]
-    fn a_clamp_that_gives_way_is_a_rotation_on_a_spring() {
-        let beam = BeamParameters { length: 0.5, ..cantilever_parameters(8) };
-        let model = beam.build(&[]).unwrap();
-        let [held] = model.supports()[..] else { panic!("one support") };
-        assert_eq!((held, model.held_node(held)), (HeldDof { element: 0, dof: 1 }, Some("0")));
-        let k = model.stiffness_at(held).unwrap();
-        for factor in [0.9, 0.6, 0.4] {
-            let updated = model.with_factors(&[(Part::Support(held), factor)]).modes().unwrap().omega;
-            let exact = on_a_spring(&beam, k * factor / (1.0 - factor));
-            let rigid = model.modes().unwrap().omega;
-            for mode in 0..3 {
-                let (shift, error) = (rigid[mode] / exact[mode] - 1.0, updated[mode] / exact[mode] - 1.0);
-                assert!(shift > 0.005 && error.abs() < 0.005 * shift + 1e-6, "{factor} {mode}: {shift} {error}");
-            }
-        }
-        let both = model.with_factors(&[(Part::Support(held), 0.5)]);
-        let (left, whole) = (both.share(Part::Support(held)).unwrap(), model.share(Part::Support(held)).unwrap());
-        for (a, b) in left.stiffness.iter().zip(&whole.stiffness) {
-            assert!((a.2 - 0.5 * b.2).abs() < 1e-12 * b.2.abs());
-        }
-        // Half of it twice is a quarter, and what is left is the derivative by the factor.
-        let (twice, quarter) =
-            (both.with_factors(&[(Part::Support(held), 0.5)]), model.with_factors(&[(Part::Support(held), 0.25)]));
-        let more = model.with_factors(&[(Part::Support(held), 0.5 + 1e-6)]);
-        let masses = [&twice, &quarter, &both, &more].map(|s| s.matrices().unwrap().mass.clone());
-        assert!((&masses[0] - &masses[1]).norm_max() < 1e-12 * masses[0].norm_max());
-        for (i, j, value) in left.mass {
-            let slope = 0.5 * (masses[3][(i, j)] - masses[2][(i, j)]) / 1e-6;
-            assert!((value - slope).abs() < 1e-5 * masses[0].norm_max(), "{i} {j}: {value} {slope}");
-        }
     }
 }

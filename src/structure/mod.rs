@@ -7,6 +7,7 @@ pub mod chain;
 pub mod component;
 mod coupling;
 pub mod damped_modes;
+mod elastic_supports;
 mod error;
 pub(crate) mod factors;
 mod geometry;

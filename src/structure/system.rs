@@ -1,5 +1,6 @@
 //! A structure: its degrees of freedom, matrices and elements, and how it came about.
 
+use super::elastic_supports::ElasticSupports;
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::mode_damping::DampingOfMode;
@@ -67,6 +68,8 @@ pub struct Origin {
     pub component_mass: f64,
     /// Modes whose damping by laws of the whole structure is corrected.
     pub damping_of_modes: Vec<DampingOfMode>,
+    /// Supports that give way.
+    pub elastic_supports: Option<ElasticSupports>,
 }
 
 impl Structure {

@@ -166,10 +166,15 @@ impl FitProblem<'_> {
             normal.matrix[(i, j)] * scaling[i] * scaling[j] + ridge
         });
         let identity = Mat::<f64>::identity(size, size);
-        let inverse = Cholesky::new(unit.as_ref()).ok_or(RecordError::Singular)?.solve(identity.as_ref());
+        // Where the equations have no solution the data tell no parameter: derivatives that run away, as those of friction that falls
+        // with speed may over a long record.
+        let inverse = Cholesky::new(unit.as_ref()).map(|factored| factored.solve(identity.as_ref()));
+        let variance = |k: usize| inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(k, k)].max(0.0));
         let slopes = slopes(&best.effects, scales);
-        let deviation =
-            |k: usize| inverse[(k, k)].max(0.0).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
+        let deviation = |k: usize| {
+            let deviation = variance(k).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
+            if deviation.is_nan() { f64::INFINITY } else { deviation }
+        };
         best.deviations = (0..shared).map(deviation).collect();
         best.alike = alike(self.records, self.share);
         let Left { chi_square, prior, count, residual } = normal.left;

@@ -2,7 +2,7 @@
 
 use super::compare::first_states;
 use super::data::{RecordError, Records};
-use super::evidence::{evidence, scale};
+use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
@@ -22,6 +22,8 @@ use std::sync::OnceLock;
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
 const CORRECTING: [usize; 2] = [3, 4];
+/// Shares of every part that are fitted one after the other.
+pub(super) const SHARES: [f64; 3] = [0.15, 0.4, 1.0];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
 /// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
@@ -165,6 +167,15 @@ impl Search<'_> {
             .improve(start, 3)
     }
 
+    /// The fit of growing shares of every part of a level: the highest modes of a model that is off lose the phase within a part.
+    pub(super) fn fit_growing(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        let mut fitted = start.clone();
+        for share in SHARES {
+            fitted = self.fit(level, &fitted, share, CORRECTING)?;
+        }
+        Ok(fitted)
+    }
+
     /// The model corrected on the shortest parts, where a frequency that is off does not lose the phase.
     pub(super) fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
         let mut fitted = self.fit(0, bare, 1.0, CORRECTING)?;
@@ -177,6 +188,12 @@ impl Search<'_> {
             {
                 fitted = other;
             }
+        }
+        if misfit(&fitted) > AGREES
+            && let Ok(other) = self.fit_growing(0, bare)
+            && other.chi_square < fitted.chi_square
+        {
+            fitted = other;
         }
         // What is left decides what priors weigh: while a round leaves much less, they are asked again.
         for _ in 0..ROUNDS {

@@ -11,7 +11,7 @@ use super::data::RecordError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
-use super::search::Search;
+use super::search::{SHARES, Search};
 use crate::control::Control;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -79,7 +79,12 @@ impl Search<'_> {
         let records = self.levels[0].on(&structure).ok()?;
         let start = FittedRecords { parts: vec![0.0; records.parts.len()], ..base.clone() };
         let free = Free { shifts: false, ..Free::all(&records) };
-        FitProblem { records: &records, free, share: 1.0, control }.begin(&start, ROUNDS).ok()
+        let mut fitted = start;
+        for share in SHARES {
+            let problem = FitProblem { records: &records, free: free.clone(), share, control };
+            fitted = problem.begin(&fitted, ROUNDS).ok()?;
+        }
+        Some(fitted)
     }
 
     /// The best factor near one that was tried, and its deviation by the curvature of the evidence.

@@ -60,7 +60,13 @@ impl AxesCorner {
 
 /// A number of an axis of x without a name, with the unit where it is the last that has room for it. Linear axes: `step` is the
 /// distance of numbers.
-pub(super) fn with_unit(label: String, unit: &str, place: (f64, f64), range: &RangeInclusive<f64>, breadth: f64) -> String {
+pub(super) fn with_unit(
+    label: String,
+    unit: &str,
+    place: (f64, f64),
+    range: &RangeInclusive<f64>,
+    breadth: f64,
+) -> String {
     if unit.is_empty() || label.is_empty() {
         return label;
     }
