@@ -3,7 +3,8 @@
 use super::error::{StructureError, nearest, positive};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::system::{Element, Origin, Structure, StructureKind, SystemMatrices};
+use super::matrices::{Element, SystemMatrices};
+use super::system::{Origin, Structure, StructureKind};
 use crate::math::eigen;
 use dashpot_numerics::Cholesky;
 use faer::{Mat, MatRef};

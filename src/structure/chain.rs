@@ -5,7 +5,8 @@ use super::assemble::{MOST_DOFS, Parts};
 use super::error::{StructureError, not_negative, positive};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::system::{Structure, StructureKind, SystemMatrices};
+use super::matrices::SystemMatrices;
+use super::system::{Structure, StructureKind};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 

@@ -8,7 +8,8 @@
 //! them is all that holds either. Finite elements couple only what is joined. Reduced matrices (Guyan, Craig-Bampton) are
 //! dense, and `s_ij` falls with distance: there the strongest of each DOF are taken.
 
-use super::system::{Structure, StructureKind, SystemMatrices};
+use super::matrices::SystemMatrices;
+use super::system::{Structure, StructureKind};
 
 /// Coupling below which an entry is rounding of a file with eight digits.
 const COUPLED: f64 = 1e-14;

@@ -10,9 +10,9 @@
 //! only loses its row of `Omega q`). A mode without stiffness has the pole 0 beside that of its damping.
 
 use super::error::StructureError;
+use super::matrices::SystemMatrices;
 use super::modes;
 use super::modes::{Modes, failure};
-use super::system::SystemMatrices;
 use crate::math::eigen;
 use dashpot_numerics::{product, transposed_product};
 use faer::{ColRef, Mat, MatRef, c64};

@@ -15,9 +15,9 @@
 //!
 //! (SEREP with all modes: O'Callahan, Avitabile and Riemer 1989).
 
-use super::factors::{HeldDof, Share, Triplets, add};
-use super::modes::modes;
-use super::system::{Element, SystemMatrices};
+use super::matrices::{Element, SystemMatrices};
+use super::share::{HeldDof, Share, Triplets, add};
+use crate::math::eigen::generalised_symmetric;
 use dashpot_numerics::RealLu;
 use faer::Mat;
 
@@ -208,11 +208,12 @@ fn put_right(
     if held.is_empty() {
         return None;
     }
-    let (own, exact) = (modes(condensed).ok()?, modes(&with_held(base, held)).ok()?);
-    let n = own.len();
+    let modes_of = |m: &SystemMatrices| generalised_symmetric(m.stiffness.as_ref(), m.mass.as_ref()).ok();
+    let (own, exact) = (modes_of(condensed)?, modes_of(&with_held(base, held))?);
+    let n = own.values.len();
     let lower = (PUT_RIGHT * n as f64).ceil() as usize;
-    let shapes = Mat::from_fn(n, n, |i, r| if r < lower { exact.shapes[(i, r)] } else { own.shapes[(i, r)] });
-    let square = |r: usize| if r < lower { exact.omega[r].powi(2) } else { own.omega[r].powi(2) };
+    let shapes = Mat::from_fn(n, n, |i, r| if r < lower { exact.vectors[(i, r)] } else { own.vectors[(i, r)] });
+    let square = |r: usize| if r < lower { exact.values[r] } else { own.values[r] };
     let inverse = RealLu::new(shapes.as_ref()).solve(Mat::<f64>::identity(n, n).as_ref());
     let product = |weight: &dyn Fn(usize) -> f64| {
         let weighted = Mat::from_fn(n, n, |r, j| weight(r) * inverse[(r, j)]);
@@ -222,8 +223,8 @@ fn put_right(
     let found = SystemMatrices { mass: product(&|_| 1.0), stiffness: product(&square) };
     let motion = |(at, (column, g)): (usize, &&(HeldColumn, f64))| {
         let still = column.motion(n, *g);
-        let above = |r: usize| (0..n).map(|i| still[i] * own.shapes[(i, r)]).sum::<f64>();
-        let by_mode: Vec<f64> = (0..n).map(|r| if r < lower { exact.shapes[(n + at, r)] } else { above(r) }).collect();
+        let above = |r: usize| (0..n).map(|i| still[i] * own.vectors[(i, r)]).sum::<f64>();
+        let by_mode: Vec<f64> = (0..n).map(|r| if r < lower { exact.vectors[(n + at, r)] } else { above(r) }).collect();
         (0..n).map(|j| (0..n).map(|r| by_mode[r] * inverse[(r, j)]).sum()).collect::<Vec<f64>>()
     };
     let motions: Vec<Vec<f64>> = held.iter().enumerate().map(motion).collect();
@@ -238,6 +239,7 @@ mod tests {
     use crate::common::models::cantilever_parameters;
     use crate::structure::Part;
     use crate::structure::beam::{BeamParameters, Supports};
+    use crate::structure::modes::modes;
 
     /// Natural frequencies with the DOFs `free` of the beam without supports, those of `springs` on springs to the ground.
     fn on_springs(beam: &BeamParameters, held: &[usize], springs: &[(usize, f64)]) -> Vec<f64> {

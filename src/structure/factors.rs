@@ -8,8 +8,10 @@
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
 use super::elastic_supports::{ElasticSupports, HeldColumn};
+use super::matrices::{Element, SystemMatrices};
 use super::mode_damping::{DampingOfMode, modal_pattern};
-use super::system::{Element, Structure, StructureKind, SystemMatrices};
+use super::share::{HeldDof, Share, Triplets, add};
+use super::system::{Structure, StructureKind};
 use faer::Mat;
 
 /// A part of a structure; rows are counted from 0.
@@ -36,37 +38,6 @@ pub enum Part {
     /// Support of a held DOF of a beam, taken for rigid: `k_s / (k_s + k_hh)` of a spring `k_s` in its stead, `k_hh` being the
     /// stiffness of the element there.
     Support(HeldDof),
-}
-
-/// A DOF of an element that a support holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct HeldDof {
-    /// The element, from 0.
-    pub element: usize,
-    /// Which of its local DOFs.
-    pub dof: usize,
-}
-
-/// Entries of a symmetric matrix, `(row, column, value)`, both triangles.
-pub(crate) type Triplets = Vec<(usize, usize, f64)>;
-
-/// The share of one part in the matrices.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Share {
-    /// Of the stiffness matrix, N/m.
-    pub stiffness: Triplets,
-    /// Of the mass matrix, kg.
-    pub mass: Triplets,
-}
-
-impl Share {
-    fn of_stiffness(stiffness: Triplets) -> Self {
-        Self { stiffness, mass: Triplets::new() }
-    }
-
-    fn of_mass(mass: Triplets) -> Self {
-        Self { stiffness: Triplets::new(), mass }
-    }
 }
 
 impl Structure {
@@ -267,12 +238,6 @@ impl Structure {
             springs.extend((i + 1..n).filter(joined).map(|j| Part::Coupling([i, j])));
         }
         if springs.len() > most && self.kind != StructureKind::Chain { Vec::new() } else { springs }
-    }
-}
-
-pub(super) fn add(matrix: &mut Mat<f64>, entries: &Triplets, factor: f64) {
-    for &(i, j, value) in entries {
-        matrix[(i, j)] += factor * value;
     }
 }
 

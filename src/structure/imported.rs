@@ -4,7 +4,8 @@ use super::assemble::{MOST_DOFS, Parts};
 use super::error::{StructureError, nearest};
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
-use super::system::{Structure, StructureKind, SystemMatrices};
+use super::matrices::SystemMatrices;
+use super::system::{Structure, StructureKind};
 use faer::Mat;
 
 /// One row of the table of DOFs.

@@ -10,9 +10,9 @@
 //! (about 10 n^3, most of it slow): seconds instead of minutes at 2000 DOFs, less where the matrices are sparse ([`super::pencil`]).
 
 use super::error::StructureError;
+use super::matrices::SystemMatrices;
 use super::modes::{self, Modes, failure};
 use super::pencil::{Factor, OfMatrices, Pencil};
-use super::system::SystemMatrices;
 use crate::math::eigen;
 use crate::math::fill::filled;
 use dashpot_numerics::{product, transposed_product};

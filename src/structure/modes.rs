@@ -1,7 +1,8 @@
 //! Undamped modes: `K phi = omega^2 M phi`, scaled so that `Phi^T M Phi = I`.
 
 use super::error::StructureError;
-use super::system::{Structure, SystemMatrices};
+use super::matrices::SystemMatrices;
+use super::system::Structure;
 use crate::math::eigen::{self, EigenError};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 //! with `A = K + s M`. Matrices that are all but empty, those of chains and beams, are multiplied and factorised as sparse ones: a
 //! block costs as many operations as they have entries, instead of n^2.
 
-use super::system::SystemMatrices;
+use super::matrices::SystemMatrices;
 use crate::math::fill::filled;
 use dashpot_numerics::{Cholesky, SparseCholesky, SparseSymmetric, product};
 use faer::{Mat, MatRef};

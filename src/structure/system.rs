@@ -3,9 +3,9 @@
 use super::elastic_supports::ElasticSupports;
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
+use super::matrices::{Element, SystemMatrices};
 use super::mode_damping::DampingOfMode;
 use super::reduction::outcome::Reduction;
-use faer::Mat;
 use serde::{Deserialize, Serialize};
 
 /// What the structure was made from.
@@ -19,26 +19,6 @@ pub enum StructureKind {
     Points,
     /// One component in a testing machine.
     Component,
-}
-
-/// Mass and stiffness, both symmetric n x n; lumped masses are included.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SystemMatrices {
-    /// Mass, kg (kg m^2 for rotations), positive definite.
-    pub mass: Mat<f64>,
-    /// Stiffness, N/m, positive semi-definite.
-    pub stiffness: Mat<f64>,
-}
-
-/// One finite element, kept for laws that are restricted to a range of elements.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Element {
-    /// Row of the system matrices of each local DOF; `None` where it is supported.
-    pub dofs: Vec<Option<usize>>,
-    /// Local mass matrix.
-    pub mass: Mat<f64>,
-    /// Local stiffness matrix.
-    pub stiffness: Mat<f64>,
 }
 
 /// A structure whose labels are unique and whose matrices, where it has any, are symmetric with positive mass.

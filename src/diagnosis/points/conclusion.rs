@@ -1,7 +1,7 @@
 //! From the fits of a search on energies to what is said.
 
 use super::balance::{Balance, Fitted};
-use super::evidence::{agrees, criterion};
+use super::evidence::{agrees, beside};
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNTRUSTED};
 use crate::diagnosis::updating::correction::Correction;
@@ -109,8 +109,7 @@ fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, (first, top): (&[Fitted
     let n = balance.missing.len();
     // What even the best leaves beyond the noise is no noise that could tell the others apart.
     let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
-    let scaled = |f: &Fitted| criterion(f, n) - f.chi_square * (1.0 - scale.recip());
-    let weights = evidence_weights(&top.iter().map(scaled).collect::<Vec<_>>());
+    let weights = evidence_weights(&top.iter().map(|f| beside(f, &top[0], (n, scale))).collect::<Vec<_>>());
     let trust = if top[0].chi_square > TOLERATED * n as f64 { UNTRUSTED } else { 1.0 };
     for (fit, added) in top.iter().flat_map(|fit| fit.added.iter().map(move |added| (fit, added))) {
         let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source));

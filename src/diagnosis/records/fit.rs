@@ -41,7 +41,7 @@ impl FitProblem<'_> {
         let equations = Equations { normal: &normal, left: &|at| self.left(at) };
         let place = (start.clone(), normal(start)?);
         let (best, equations) = self.descend(place, iterations, &scales, unit, &equations)?.0;
-        self.finish(best, &scales, equations)
+        Ok(self.finish(best, &scales, equations))
     }
 
     /// The same in at most `rounds` of `steps` steps, in each of which all but the laws is differentiated once ([`Held`]).
@@ -79,7 +79,7 @@ impl FitProblem<'_> {
             let equations;
             ((best, equations), ended) = self.descend((best, normal), steps, &scales, unit, &there)?;
             if ended || round + 1 >= rounds || self.control.is_late() {
-                return self.finish(best, &scales, equations);
+                return Ok(self.finish(best, &scales, equations));
             }
         }
         self.improve(&best, 0)
@@ -152,12 +152,7 @@ impl FitProblem<'_> {
     }
 
     /// Adds deviations and what is left.
-    fn finish(
-        &self,
-        mut best: FittedRecords,
-        scales: &[Vec<f64>],
-        normal: Normal,
-    ) -> Result<FittedRecords, RecordError> {
+    fn finish(&self, mut best: FittedRecords, scales: &[Vec<f64>], normal: Normal) -> FittedRecords {
         let size = normal.gradient.len();
         let shared = self.shared(&best);
         let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
@@ -180,6 +175,6 @@ impl FitProblem<'_> {
         let Left { chi_square, prior, count, residual } = normal.left;
         (best.chi_square, best.prior, best.count) = (chi_square, prior, count);
         best.residual = Arc::new(residual);
-        Ok(best)
+        best
     }
 }

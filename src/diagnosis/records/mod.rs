@@ -9,6 +9,7 @@ pub mod amplitude;
 mod coarse_steps;
 pub(crate) mod compare;
 mod conclusion;
+mod corrected;
 pub(crate) mod data;
 mod decays;
 pub(crate) mod diagnose;

@@ -11,8 +11,8 @@
 
 use crate::diagnosis::updating::parts::parts;
 use crate::math::eigen::symmetric;
-use crate::structure::factors::{Share, Triplets};
 use crate::structure::modes::Modes;
+use crate::structure::share::{Share, Triplets};
 use crate::structure::{Part, Structure};
 use dashpot_numerics::Cholesky;
 use faer::Mat;

@@ -2,11 +2,10 @@
 
 use super::compare::first_states;
 use super::data::{RecordError, Records};
-use super::evidence::{AGREES, evidence, misfit, scale};
+use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
-use super::regression::Regression;
 use super::rivals::{GivenUp, is_same_set, unlike};
 use super::telling::{last_deviations, plainest};
 use crate::balance::windows::motion::Motion;
@@ -18,12 +17,9 @@ use crate::effects::{Family, Place, Source};
 use crate::structure::{Part, Structure};
 use std::sync::OnceLock;
 
-/// Rounds and steps in each of the fits of those that are followed, and how many are; steps of a correction.
+/// Rounds and steps in each of the fits of those that are followed, and how many are.
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
-const CORRECTING: [usize; 2] = [3, 4];
-/// Shares of every part that are fitted one after the other.
-pub(super) const SHARES: [f64; 3] = [0.15, 0.4, 1.0];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
 /// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
@@ -32,9 +28,6 @@ const FOLLOWED_BESIDE: usize = 3;
 const PROMISED: f64 = 0.18;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
-/// Rounds in which the model alone is corrected again, and the share of the squared residual of the one before that ends them.
-const ROUNDS: usize = 4;
-const ENDED: f64 = 0.8;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
@@ -165,46 +158,6 @@ impl Search<'_> {
     pub(super) fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
         FitProblem { records: &self.levels[level], free: Free::nothing(), share: 1.0, control: self.control }
             .improve(start, 3)
-    }
-
-    /// The fit of growing shares of every part of a level: the highest modes of a model that is off lose the phase within a part.
-    pub(super) fn fit_growing(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
-        let mut fitted = start.clone();
-        for share in SHARES {
-            fitted = self.fit(level, &fitted, share, CORRECTING)?;
-        }
-        Ok(fitted)
-    }
-
-    /// The model corrected on the shortest parts, where a frequency that is off does not lose the phase.
-    pub(super) fn corrected(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
-        let mut fitted = self.fit(0, bare, 1.0, CORRECTING)?;
-        // The motion itself may know better how far the model is off.
-        if let Some(regression) = Regression::new(self.records, bare, self.control) {
-            // Corrections by a measured motion are not bent to what the model leaves: priors weigh what noise demands.
-            let start = FittedRecords { count: 0, ..regression.tuned(bare, None) };
-            if let Ok(other) = self.fit(0, &start, 1.0, CORRECTING)
-                && other.chi_square < fitted.chi_square
-            {
-                fitted = other;
-            }
-        }
-        if misfit(&fitted) > AGREES
-            && let Ok(other) = self.fit_growing(0, bare)
-            && other.chi_square < fitted.chi_square
-        {
-            fitted = other;
-        }
-        // What is left decides what priors weigh: while a round leaves much less, they are asked again.
-        for _ in 0..ROUNDS {
-            let next = self.fit(0, &fitted, 1.0, CORRECTING)?;
-            let ended = next.chi_square > ENDED * fitted.chi_square;
-            fitted = next;
-            if ended {
-                break;
-            }
-        }
-        Ok(fitted)
     }
 
     /// Fits of the best of `rivals` with one effect more, best first, and of those that leave hardly more: which of two laws comes

@@ -7,11 +7,12 @@
 //!
 //! `k_s` is the spring in place of the support, `k_hh` the stiffness of the element there ([`Part::Support`]).
 
+use super::corrected::SHARES;
 use super::data::RecordError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
-use super::search::{SHARES, Search};
+use super::search::Search;
 use crate::control::Control;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;

@@ -3,7 +3,7 @@
 
 use super::parameters::{Updating, UpdatingParameter};
 use crate::effects::{Effect, Place, Source};
-use crate::structure::factors::{Share, Triplets};
+use crate::structure::share::{Share, Triplets};
 use crate::structure::{Part, Structure};
 
 /// The part of a structure that an added spring or mass would change; none of other effects.

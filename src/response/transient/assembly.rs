@@ -6,7 +6,7 @@ use super::reduction::{RESIDUAL_DAMPING, Reduction};
 use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
 use crate::effects::{Basis, Constant, Effect, Kind, Law, Leg, Place, Source};
-use crate::structure::factors::Triplets;
+use crate::structure::share::Triplets;
 use faer::Mat;
 use std::f64::consts::PI;
 

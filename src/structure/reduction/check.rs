@@ -3,8 +3,8 @@
 use super::mode_check::ModeCheck;
 use super::request::Wanted;
 use crate::structure::error::StructureError;
+use crate::structure::matrices::SystemMatrices;
 use crate::structure::modes::{Modes, mac_real, modes};
-use crate::structure::system::SystemMatrices;
 use std::f64::consts::TAU;
 
 /// Compares with the modes of the whole model in the band, mode by mode in ascending order; `kept` are the rows of the whole model that are the first of the reduced one.

@@ -3,9 +3,9 @@
 use super::request::SparseSystem;
 use crate::structure::error::StructureError;
 use crate::structure::lowest_modes::search;
+use crate::structure::matrices::SystemMatrices;
 use crate::structure::modes::{Modes, modes};
 use crate::structure::pencil::Pencil;
-use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric};
 use faer::{Mat, MatRef};
 use std::f64::consts::TAU;

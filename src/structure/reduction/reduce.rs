@@ -9,9 +9,9 @@ use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::structure::error::StructureError;
 use crate::structure::geometry::Direction;
+use crate::structure::matrices::SystemMatrices;
 use crate::structure::modes::Modes;
 use crate::structure::pencil::Pencil;
-use crate::structure::system::SystemMatrices;
 use dashpot_numerics::{SparseCholesky, SparseSymmetric, product, transposed_product};
 use faer::Mat;
 
