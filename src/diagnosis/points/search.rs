@@ -105,7 +105,7 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
 }
 
 /// The search and the number of effects that the energies speak for. Every effect must bring its evidence against fewer effects
-/// beside any uncertainty: one that is needed only where the sensors are taken for exact is none.
+/// beside any uncertainty, two that need each other twice as much: one that is needed only where the sensors are taken for exact is none.
 fn decided(ended: &[Ended], n: usize) -> Option<(&Ended, usize)> {
     let best = |size: usize| {
         let of_search = |search| Some((search, Ended::evidence(search, size, n)?));
@@ -113,14 +113,14 @@ fn decided(ended: &[Ended], n: usize) -> Option<(&Ended, usize)> {
         ended.iter().filter_map(of_search).min_by(|a, b| total(a).total_cmp(&total(b)))
     };
     let (mut chosen, mut before) = best(0)?;
-    let mut size = 0;
-    while let Some((search, (left, penalty))) = best(size + 1) {
-        let fit = &search.by_size[size][0];
+    let (mut size, mut next) = (0, 1);
+    while let Some((search, (left, penalty))) = best(next) {
+        let fit = &search.by_size[next - 1][0];
         let scale = (fit.chi_square / (n - fit.parameters).max(1) as f64).max(1.0);
-        if (before.0 - left) / scale - (penalty - before.1) < EVIDENCE {
-            break;
+        if (before.0 - left) / scale - (penalty - before.1) >= (next - size) as f64 * EVIDENCE {
+            (chosen, before, size) = (search, (left, penalty), next);
         }
-        (chosen, before, size) = (search, (left, penalty), size + 1);
+        next += 1;
     }
     Some((chosen, size))
 }
@@ -139,6 +139,7 @@ fn climb(
     let mut columns = if agrees(last.0, n, 0) { Vec::new() } else { balance.columns(shapes()) };
     columns.retain(|column| allowed(&column.source));
     let mut by_size: Vec<Vec<Fitted>> = Vec::new();
+    let mut asked = 0.0;
     for count in 1..=2 {
         control.check()?;
         if agrees(last.0, n, last.1) || columns.is_empty() {
@@ -150,12 +151,15 @@ fn climb(
         let Some(best) = fits.first() else { break };
         let scale = (best.chi_square / (n - best.parameters).max(1) as f64).max(1.0);
         let penalty = (best.parameters as f64 - last.1 as f64) * (n as f64).ln();
-        if (last.0 - best.chi_square) / scale - penalty < EVIDENCE {
-            break;
+        asked += EVIDENCE;
+        // One effect alone may leave so much that it says nothing, where two leave no more than noise.
+        if (last.0 - best.chi_square) / scale - penalty >= asked {
+            (last, asked) = ((best.chi_square, best.parameters), 0.0);
         }
-        last = (best.chi_square, best.parameters);
         by_size.push(fits);
     }
+    // What brought no evidence is no effect.
+    by_size.truncate(by_size.len() - (asked / EVIDENCE) as usize);
     Ok(by_size)
 }
 

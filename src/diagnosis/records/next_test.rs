@@ -48,11 +48,13 @@ impl Search<'_> {
             let titles: Vec<&str> = f.effects.iter().map(|e| e.effect.title()).collect();
             titles.join(" and ")
         });
-        let place = if names[0] == names[1] { " at these two places" } else { "" };
-        let why = format!(
-            "{} and {}{place} would differ there by {:.1} standard deviations of the measured channels",
-            names[0], names[1], gains[most]
-        );
+        let of_two = match names {
+            [one, other] if one == other && best.effects.len() > 1 => format!("{one} at the one and the other places"),
+            [one, other] if one == other => format!("{one} and {other} at these two places"),
+            [one, other] => format!("{one} and {other}"),
+        };
+        let why =
+            format!("{of_two} would differ there by {:.1} standard deviations of the measured channels", gains[most]);
         let Trial { test, record, dof, force, .. } = &trials[most];
         let test = NextTest { kind: *test, frequency_hz: record.dominant_hz, force_dof: *dof, force: *force, why };
         Ok(if gains[most] > TELLS { vec![test] } else { Vec::new() })
