@@ -178,3 +178,34 @@ impl FitProblem<'_> {
         best
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::diagnosis::records::problem::Free;
+
+    /// Derivatives that run away leave the fit where it is, and tell nothing of its parameters.
+    #[test]
+    fn equations_without_a_solution_tell_no_parameter() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let wave = |n: usize| (-1e-3 * n as f64).exp() * (0.07 * n as f64).cos();
+        let run = decay(4e-3, (0..2).map(|_| (0..2000).map(wave).collect()).collect());
+        let (records, control) = (Records::new(&structure, &[], &[run]).unwrap(), Control::unattended());
+        let problem = FitProblem { records: &records, free: Free::all(&records), share: 1.0, control: &control };
+        let start = FittedRecords::start(&records, &[]);
+        let normal = || problem.normal(&start, &[], 1.0).unwrap();
+        let sound = problem.finish(start.clone(), &[], normal());
+        assert!(!sound.deviations.is_empty() && sound.deviations.iter().all(|d| d.is_finite()));
+        let mut away = normal();
+        let last = away.gradient.len() - 1;
+        away.matrix[(last, last)] = f64::INFINITY;
+        let fit = problem.finish(start.clone(), &[], away);
+        assert!(fit.deviations.iter().all(|d| d.is_infinite()), "{:?}", fit.deviations);
+        assert_eq!(fit.chi_square, sound.chi_square);
+    }
+}
