@@ -38,6 +38,7 @@ pub fn flag(flag: Flag) -> &'static str {
         Flag::ExponentialWindow => "exponential window",
         Flag::UnevenSteps => "uneven steps",
         Flag::BeforeRelease => "begins before its release",
+        Flag::Offset => "zero of a sensor",
     }
 }
 

@@ -42,11 +42,13 @@ pub enum Flag {
     UnevenSteps,
     /// The record of a decay begins before its release; it is used from there on.
     BeforeRelease,
+    /// A channel does not show zero where nothing acts.
+    Offset,
 }
 
 impl Flag {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::NotSettled,
         Self::Noisy,
         Self::Clipped,
@@ -65,6 +67,7 @@ impl Flag {
         Self::ExponentialWindow,
         Self::UnevenSteps,
         Self::BeforeRelease,
+        Self::Offset,
     ];
 }
 

@@ -31,6 +31,7 @@ mod transient_correction;
 mod transient_quality;
 pub mod transient_run;
 mod whole_functions;
+mod zero;
 
 pub use channel::{Channel, ChannelName, Quantity, Unit};
 pub use finding::{Finding, Flag};
@@ -43,3 +44,4 @@ pub use run::{Amplitudes, ChannelCorrection, Run};
 pub use transient_correction::TransientRunError;
 pub use transient_run::{TransientLabel, TransientRun};
 pub use whole_functions::{WholeFunction, WholeFunctions};
+pub(crate) use zero::without_zero;

@@ -5,6 +5,7 @@ use super::finding::{Finding, Flag};
 use super::kind::Kind;
 use super::proposal::propose;
 use super::transient_run::TransientRun;
+use super::zero::zeros;
 use crate::math::spectrum::Spectrum;
 
 /// Force, over its largest, that belongs to a contact.
@@ -35,6 +36,7 @@ pub(super) fn assess(run: &TransientRun) -> Vec<Finding> {
     findings.extend(run.response_channels().into_iter().filter_map(|c| out_of_band(run, c)));
     findings.extend(too_short(run));
     findings.extend(run.response_channels().into_iter().filter_map(|c| drift(run, c)));
+    findings.extend(zeros(run));
     findings
 }
 
@@ -114,7 +116,7 @@ fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
 }
 
 /// Whether a force is a hammer's: contacts that are short beside the record.
-fn is_blow(force: &[f64]) -> bool {
+pub(super) fn is_blow(force: &[f64]) -> bool {
     let length: usize = contacts(force).iter().map(|(first, last)| last - first + 1).sum();
     length > 0 && length as f64 <= HAMMER * force.len() as f64
 }

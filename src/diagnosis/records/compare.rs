@@ -235,8 +235,8 @@ fn compared(records: &Records, record: &RecordData, model: Vec<Vec<f64>>, louder
         bands: bands(record, &model),
         curves: curves(record, &model, louder),
         time: record.run.time().to_vec(),
-        measured: record.samples.clone(),
-        model,
+        measured: record.as_measured(&record.samples),
+        model: record.as_measured(&model),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::{median, root_mean_square};
-use crate::measurement::{Channel, Kind, TransientRun};
+use crate::measurement::{Channel, Kind, TransientRun, without_zero};
 use crate::response::transient::{TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
 use crate::structure::{Part, Structure, StructureError};
@@ -65,8 +65,10 @@ pub struct RecordData {
     pub step: f64,
     /// Channels of motion.
     pub channels: Vec<Channel>,
-    /// Their samples less their means where they are displacements of a decay, SI.
+    /// Their samples less their means, SI.
     pub samples: Vec<Vec<f64>>,
+    /// Their means over the whole record, SI: a sensor has its zero somewhere, and what of a mean is motion is found as an offset.
+    pub means: Vec<f64>,
     /// Largest sample of every channel of the whole record, SI.
     pub largest: Vec<f64>,
     /// Rows of the driven DOFs.
@@ -127,7 +129,7 @@ impl<'a> Records<'a> {
             return Err(RecordError::NoRuns);
         }
         let mut kept = modes_followed(&list, &modes);
-        let last_hz = modes.omega[kept - 1] / TAU;
+        let last_hz = last_hz(&list, &modes, kept);
         for own in &mut list {
             if let Some(run) = own.at_lower_rate(last_hz) {
                 *own = record(own.index, &run)?;
@@ -160,10 +162,9 @@ impl<'a> Records<'a> {
 
     /// Frequency (Hz) from which on motion is not that of the modes that are followed.
     fn corner_hz(&self) -> f64 {
-        let at = |r: usize| self.modes.omega[r] / TAU;
-        let next =
-            if self.kept < self.modes.len() { (at(self.kept - 1) * at(self.kept)).sqrt() } else { f64::INFINITY };
-        next.min(ABOVE * at(self.kept - 1))
+        let last = last_hz(&self.list, &self.modes, self.kept);
+        let next = self.modes.omega.get(self.kept).map_or(f64::INFINITY, |w| (last * w / TAU).sqrt());
+        next.min(ABOVE * last)
     }
 
     /// Standard deviation of every sample of a record of which `left` (one list a channel) is not predicted.
@@ -242,6 +243,17 @@ impl Records<'_> {
 }
 
 impl RecordData {
+    /// Mean of a channel over its largest sample.
+    pub(super) fn mean_share(&self, c: usize) -> f64 {
+        self.means.get(c).map_or(0.0, |mean| mean.abs() / self.largest[c].max(f64::MIN_POSITIVE))
+    }
+
+    /// Channels with the means of those that were measured.
+    pub(super) fn as_measured(&self, channels: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |(list, mean): (&Vec<f64>, &f64)| list.iter().map(|y| y + mean).collect();
+        channels.iter().zip(&self.means).map(of).collect()
+    }
+
     /// The run at a lower rate where its own is many times that of the motion of modes up to `last_hz`: nothing is to be seen in between,
     /// and every fit would take as many times longer. Of a long record that is so many times the frequency of its largest motion.
     fn at_lower_rate(&self, last_hz: f64) -> Option<TransientRun> {
@@ -274,6 +286,14 @@ fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
     below.max(shown).clamp(1, MOST_MODES).min(modes.len())
 }
 
+/// Frequency (Hz) of the last mode that is followed; of the motion where that mode has no period within a record, as of a carriage on
+/// rails, whose motion is all that of its force.
+fn last_hz(list: &[RecordData], modes: &Modes, kept: usize) -> f64 {
+    let last = modes.omega[kept - 1] / TAU;
+    let longest = list.iter().map(|r| r.step * r.len() as f64).fold(0.0, f64::max);
+    if last * longest > 1.0 { last } else { list.iter().map(|r| r.highest_hz).fold(last, f64::max) }
+}
+
 fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let driven = run.force_channels();
     if run.kind == Kind::Transient && driven.is_empty() {
@@ -281,7 +301,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     }
     let seen = run.response_channels();
     let channels: Vec<Channel> = seen.iter().map(|&c| run.channels()[c].clone()).collect();
-    let samples: Vec<Vec<f64>> = seen.iter().map(|&c| run.samples(c).to_vec()).collect();
+    let (samples, means): (Vec<_>, Vec<_>) = seen.iter().map(|&c| centred(run.samples(c))).unzip();
     let step = run.step();
     let largest = samples.iter().map(|y| y.iter().fold(0.0_f64, |m, y| m.max(y.abs()))).collect();
     let noise: Vec<f64> = samples.iter().map(|y| noise_of(y, step)).collect();
@@ -295,9 +315,10 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         step,
         channels,
         samples,
+        means,
         largest,
         drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
-        forces: driven.iter().map(|&c| run.samples(c).to_vec()).collect(),
+        forces: driven.iter().map(|&c| without_zero(run.samples(c))).collect(),
         noise,
         sigma,
         by_force: Vec::new(),
@@ -312,6 +333,12 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     record.highest_hz = highest_hz(&record);
     record.substeps = record.fine_steps();
     Ok(record)
+}
+
+/// A signal less its mean, and the mean.
+fn centred(signal: &[f64]) -> (Vec<f64>, f64) {
+    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    (signal.iter().map(|y| y - mean).collect(), mean)
 }
 
 /// Noise of a signal from the highest quarter of its spectrum, taken as white; at least rounding of the largest sample.

@@ -21,6 +21,8 @@ const PERIODS: f64 = 40.0;
 const NEAR: [f64; 2] = [0.7, 1.4];
 /// Separation, in standard deviations, from which on a test tells anything.
 const TELLS: f64 = 3.0;
+/// Separation beyond which more of it tells no more; models that run away under a larger force are as far apart as one likes.
+const PLAIN: f64 = 1000.0;
 
 /// A test that could be made.
 struct Trial {
@@ -38,10 +40,10 @@ impl Search<'_> {
         let other = |f: &&FittedRecords| !f.effects.iter().all(|e| best.effects.iter().any(|b| b.is_same(e)));
         let Some(rival) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };
         let trials = trials(self.plain);
-        let of = |k: usize| separation(self.plain, &trials[k], [best, rival]).unwrap_or(0.0);
+        let of = |k: usize| separation(self.plain, &trials[k], [best, rival]).unwrap_or(0.0).min(PLAIN);
         let gains = self.control.map(trials.len(), of);
         self.control.check()?;
-        let Some(most) = (0..trials.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b])) else {
+        let Some(most) = (0..trials.len()).rev().max_by(|&a, &b| gains[a].total_cmp(&gains[b])) else {
             return Ok(Vec::new());
         };
         let names = [best, rival].map(|f| {
@@ -53,8 +55,8 @@ impl Search<'_> {
             [one, other] if one == other => format!("{one} and {other} at these two places"),
             [one, other] => format!("{one} and {other}"),
         };
-        let why =
-            format!("{of_two} would differ there by {:.1} standard deviations of the measured channels", gains[most]);
+        let gain = if gains[most] < PLAIN { format!("{:.1}", gains[most]) } else { format!("more than {PLAIN}") };
+        let why = format!("{of_two} would differ there by {gain} standard deviations of the measured channels");
         let Trial { test, record, dof, force, .. } = &trials[most];
         let test = NextTest { kind: *test, frequency_hz: record.dominant_hz, force_dof: *dof, force: *force, why };
         Ok(if gains[most] > TELLS { vec![test] } else { Vec::new() })

@@ -158,8 +158,7 @@ impl FitProblem<'_> {
             let shapes = self.shape_columns(record, c, &response.modal);
             let first = count + self.records.sensor(record, c) * self.records.kept;
             columns.extend(shapes.into_iter().enumerate().map(|(k, list)| (first + k, list)));
-            let offset = self.offset_column(r, c, e.len());
-            columns.extend(offset.into_iter().map(|list| (count + self.shapes() + c, list)));
+            columns.push((count + self.shapes() + c, self.offset_column(r, c, e.len())));
             channels.push(columns);
         }
         let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
@@ -195,11 +194,10 @@ impl FitProblem<'_> {
         }
     }
 
-    /// Derivative of a channel of record `r` by its offset, over the noise; none where offsets are held.
-    fn offset_column(&self, r: usize, c: usize, samples: usize) -> Option<Vec<f64>> {
+    /// Derivative of a channel of record `r` by its offset, over the noise.
+    fn offset_column(&self, r: usize, c: usize, samples: usize) -> Vec<f64> {
         let record = &self.records.list[r];
-        let (largest, sigma) = (record.largest[c], &record.sigma[c][..samples]);
-        self.free.shapes.then(|| sigma.iter().map(|s| largest / s).collect())
+        record.sigma[c][..samples].iter().map(|s| record.largest[c] / s).collect()
     }
 
     /// Derivatives of a channel by the errors of its shapes, over the noise, one list a kept mode; none where they are held.

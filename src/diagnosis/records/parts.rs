@@ -122,6 +122,7 @@ impl RecordData {
             step: self.step * every as f64,
             channels: self.channels.clone(),
             samples: of(&self.samples),
+            means: self.means.clone(),
             largest: self.largest.clone(),
             drives: self.drives.clone(),
             forces: of(&self.forces),

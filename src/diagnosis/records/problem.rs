@@ -18,7 +18,7 @@ const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
-/// What is free beside the initial states and the effects.
+/// What is free beside the initial states, the offsets of the channels of every record and the effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Free {
     /// All stiffness, then the size of every known source, then the damping and the stiffness of every mode, then all mass, at last the parts; none
@@ -26,14 +26,14 @@ pub(super) struct Free {
     pub corrections: Vec<bool>,
     /// The shift of every record.
     pub shifts: bool,
-    /// The shapes of the modes at the sensors, and the offsets of the channels of every record.
+    /// The shapes of the modes at the sensors.
     pub shapes: bool,
     /// The parameters of the effects.
     pub effects: bool,
 }
 
 impl Free {
-    /// Initial states and effects only.
+    /// Initial states, offsets and effects only.
     pub(super) fn nothing() -> Self {
         Self { corrections: Vec::new(), shifts: false, shapes: false, effects: true }
     }
@@ -139,7 +139,7 @@ impl FitProblem<'_> {
 
     /// Offsets of each record, the last of its variables.
     pub(super) fn offsets(&self) -> usize {
-        if self.free.shapes { self.records.most_channels() } else { 0 }
+        self.records.most_channels()
     }
 
     /// Number of the variable of the offset of channel 0 of a record.
@@ -184,10 +184,8 @@ impl FitProblem<'_> {
             if self.free.shifts {
                 next.shifts[r] += change[from + 2 * self.records.kept].clamp(-0.05, 0.05);
             }
-            if self.free.shapes {
-                let first = self.offset_variable(at, r);
-                next.offsets[r].iter_mut().zip(&change[first..]).for_each(|(o, c)| *o += c);
-            }
+            let first = self.offset_variable(at, r);
+            next.offsets[r].iter_mut().zip(&change[first..]).for_each(|(o, c)| *o += c);
         }
         next
     }
@@ -275,7 +273,8 @@ impl FitProblem<'_> {
         for r in 0..self.records.list.len() {
             let first = self.offset_variable(at, r);
             let offset = |c: usize| at.offsets[r].get(c).copied().unwrap_or(0.0);
-            list.extend((0..self.offsets()).map(|c| (first + c, offset(c), PRIORS[6])));
+            let deviation = |c: usize| PRIORS[6].max(self.records.list[r].mean_share(c));
+            list.extend((0..self.offsets()).map(|c| (first + c, offset(c), deviation(c))));
         }
         if self.free.shifts {
             let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;
