@@ -74,15 +74,23 @@ impl<T: InternalLaw + Send> InternalSteps for Stepped<T> {
 pub(crate) struct Internal<T>(pub T);
 
 impl<T: InternalLaw> Internal<T> {
-    /// Adds where each way of the period starts and leads to from the force `start`; the force at the end, and its derivative by
-    /// `start`.
+    /// Where each way of the period starts and leads to from the force `start`, in place of those of another start; the force at the end,
+    /// and its derivative by `start`.
     fn period(&self, (shape, p): (&T::Shape, &[f64]), d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
-        ways.clear();
-        (0..d.len()).fold([start, 1.0], |[force, slope], n| {
+        let [mut force, mut slope] = [start, 1.0];
+        for n in 0..d.len() {
+            // What has forgotten its start goes on as before.
+            if slope == 0.0 && ways.get(n).is_some_and(|(before, _)| *before == force) {
+                return [ways[ways.len() - 1].1.force, 0.0];
+            }
             let way = self.0.step(shape, p, force, d[(n + 1) % d.len()] - d[n]);
-            ways.push((force, way));
-            [way.force, slope * way.by_start]
-        })
+            match ways.get_mut(n) {
+                Some(known) => *known = (force, way),
+                None => ways.push((force, way)),
+            }
+            (force, slope) = (way.force, slope * way.by_start);
+        }
+        [force, slope]
     }
 
     /// The force of a spring about the middle of the motion, within the bound.

@@ -20,6 +20,9 @@ use crate::effects::symbol::{Mark, Tone};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dahl;
 
+/// Exponent at which what a way began with is less than rounding of the sliding force: `e^-46` is 1e-20.
+const FORGOTTEN: f64 = -46.0;
+
 const DESCRIPTION: Description = Description {
     scaled: &[0, 1],
     shapes: |range| range.yields().into_iter().map(|extension| vec![1.0, extension]).collect(),
@@ -61,6 +64,9 @@ impl InternalLaw for Dahl {
         let [stiffness, force] = [p[0], p[1]];
         let sliding = force * if way < 0.0 { -1.0 } else { 1.0 };
         let exponent = -stiffness * way.abs() / force;
+        if exponent < FORGOTTEN {
+            return Way { force: sliding, by_start: 0.0, by_way: 0.0 };
+        }
         let fading = exponent.exp();
         Way {
             // Of ways that are short of sliding, the difference of two large forces would be rounding.
@@ -74,6 +80,9 @@ impl InternalLaw for Dahl {
         let [stiffness, force] = [p[0], p[1]];
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
         let length = way.abs() / force;
+        if -stiffness * length < FORGOTTEN {
+            return if k == 0 { 0.0 } else { sign };
+        }
         let fading = (-stiffness * length).exp();
         let rest = (start - sign * force) * fading;
         if k == 0 { -length * rest } else { sign * (1.0 - fading) + rest * stiffness * length / force }

@@ -98,7 +98,10 @@ impl Fourier {
         let mut at = 0;
         for s in samples.iter_mut() {
             *s = self.circle[at][part];
-            at = (at + h) % self.samples;
+            at += h;
+            if at >= self.samples {
+                at -= self.samples;
+            }
         }
     }
 

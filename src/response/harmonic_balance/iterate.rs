@@ -22,6 +22,8 @@ const SERVES: f64 = 0.2;
 const STEPS: usize = 60;
 /// Newton steps with odd and even harmonics apart.
 const STEPS_APART: usize = 25;
+/// Steps without a lower residual after which none is to be hoped for.
+const STALLED: usize = 10;
 
 /// How a Newton solve ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,11 +78,16 @@ impl Balance<'_> {
         let mut state = self.state(u, level);
         let mut best = (f64::INFINITY, u.clone());
         let mut factors = Factors::default();
-        let mut done = 0;
+        let (mut done, mut since) = (0, 0);
         for steps in 0..most {
             let residual = relative(&state.residual, u);
             if residual < best.0 {
                 best = (residual, u.clone());
+                since = 0;
+            }
+            since += 1;
+            if since > STALLED {
+                break;
             }
             if residual <= tolerance {
                 return Ending { converged: true, steps, residual };
