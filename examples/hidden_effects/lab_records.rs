@@ -20,8 +20,8 @@ pub(crate) const CLASSES: [&str; 4] = ["rdecay", "rhammer", "rsweep", "rnoise"];
 const KNOWN: f64 = 0.1;
 const SENSORS: f64 = 0.01;
 const FORCE: f64 = 0.02;
-/// Share of an offset of the largest motion, where a channel has one.
-const OFFSET: f64 = 0.003;
+/// Share of the zero of a channel of its largest signal, where it has one: from drifting amplifiers to accelerometers that show gravity.
+const ZEROS: [f64; 2] = [0.003, 0.5];
 
 /// What a project of a seed is.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +82,9 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     }
     let all: Vec<Source> = true_known.iter().chain(&hidden_true).cloned().collect();
     let gains: Vec<f64> = (0..=rows.len()).map(|k| factor(if k == 0 { FORCE } else { SENSORS }, random)).collect();
-    let offsets: Vec<f64> = rows.iter().map(|_| if random.uniform() < 0.2 { OFFSET } else { 0.0 }).collect();
+    let chances: Vec<f64> = rows.iter().map(|_| random.uniform()).collect();
+    // The force cell has one of its own, of the digits that the chance of the first sensor leaves.
+    let offsets: Vec<f64> = std::iter::once((10.0 * chances[0]).fract()).chain(chances).map(zero).collect();
     let noise = random.within(0.002, 0.01);
     let chain =
         Measuring { quantity, rows: &rows, gains: &gains, offsets: &offsets, noise, decay: plan.class == "rdecay" };
@@ -109,6 +111,12 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
         levels: None,
         kind: Some(if plan.class == "rdecay" { "decay" } else { "transient" }),
     })
+}
+
+/// The zero of a channel, of a uniform chance: a fifth of the channels has one, its logarithm uniform.
+fn zero(chance: f64) -> f64 {
+    let among = chance / 0.2;
+    if among < 1.0 { ZEROS[0] * (ZEROS[1] / ZEROS[0]).powf(among) } else { 0.0 }
 }
 
 /// A source of the model in the true structure.
@@ -168,6 +176,7 @@ struct Measuring<'a> {
     rows: &'a [usize],
     /// Of the force, then of every sensor.
     gains: &'a [f64],
+    /// Alike, over the largest signal.
     offsets: &'a [f64],
     noise: f64,
     decay: bool,
@@ -181,11 +190,8 @@ impl Measuring<'_> {
             force.into_iter().chain(self.rows.iter().map(|&dof| channel(self.quantity, dof))).collect();
         let mut samples = recorded(structure, sources, test, &channels)?;
         let first = self.first(test, random);
-        let (gains, offsets) = if self.decay {
-            (&self.gains[1..], self.offsets.to_vec())
-        } else {
-            (self.gains, std::iter::once(0.0).chain(self.offsets.iter().copied()).collect())
-        };
+        let first_channel = usize::from(self.decay);
+        let (gains, offsets) = (&self.gains[first_channel..], &self.offsets[first_channel..]);
         for (list, (gain, offset)) in samples.iter_mut().zip(gains.iter().zip(offsets)) {
             list.drain(..first);
             let largest = list.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
