@@ -23,6 +23,7 @@ macro_rules! table_of_laws {
             CubicStiffness: Memoryless = cubic_stiffness,
             QuadraticStiffness: Memoryless = quadratic_stiffness,
             Gap: Memoryless = gap,
+            Stop: Memoryless = stop,
             Mass: Linear = mass,
             LossFactor: Whole = loss_factor,
             StiffnessProportional: Whole = stiffness_proportional,

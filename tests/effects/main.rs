@@ -36,6 +36,7 @@ fn cases() -> Vec<(Effect, &'static dyn Law, Vec<f64>)> {
         (Effect::CubicStiffness, &[&[2e7]]),
         (Effect::QuadraticStiffness, &[&[-3e4]]),
         (Effect::Gap, &[&[4e3, 4e-4], &[4e3, 0.0]]),
+        (Effect::Stop, &[&[4e3, 4e-4], &[4e3, -3e-4]]),
         (Effect::Mass, &[&[0.3]]),
     ];
     let mut cases = Vec::new();

@@ -90,6 +90,7 @@ fn only_laws_that_are_not_odd_make_even_harmonics() {
             Effect::QuadraticStiffness => vec![1e7],
             Effect::BoucWen => vec![2e4, 5.0, 3.0],
             Effect::Dahl => vec![2e4, 5.0],
+            Effect::Stop => vec![3e4, 2e-4],
             _ => continue,
         };
         let sources = with(Source::known(effect, dashpot::effects::Place::Dofs(vec![2]), &example));

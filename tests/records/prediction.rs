@@ -137,6 +137,7 @@ fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
         (Effect::Quadratic, vec![2.0]),
         (Effect::Power, vec![0.8, 1.5]),
         (Effect::Gap, vec![3e3, 4e-4]),
+        (Effect::Stop, vec![3e3, -4e-4]),
         (Effect::ElasticSlider, vec![4e3, 0.4]),
         (Effect::Iwan, vec![4e3, 0.8, -0.4, 0.5]),
         (Effect::Maxwell, vec![3e3, 4.0]),
