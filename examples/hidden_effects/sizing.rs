@@ -70,6 +70,7 @@ pub(crate) fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64
         Effect::Iwan => vec![s / (0.3 * d), s, -0.5, 1.0],
         Effect::Stribeck => vec![s, 2.0 * s, 0.1 * v],
         Effect::Gap | Effect::Stop => vec![s / d, 0.4 * d],
+        Effect::ElasticSliderBacklash => vec![s / (0.25 * d), s, 0.2 * d],
         Effect::Coulomb => vec![s],
         Effect::Viscous => vec![s / v],
         Effect::Quadratic => vec![s / (v * v)],

@@ -17,6 +17,7 @@ macro_rules! table_of_laws {
             Fractional: Linear = fractional,
             BoucWen: Internal = bouc_wen,
             Dahl: Internal = dahl,
+            ElasticSliderBacklash: Internal = elastic_slider_backlash,
             AsymmetricViscous: Memoryless = asymmetric_viscous,
             AsymmetricCoulomb: Memoryless = asymmetric_coulomb,
             Stiffness: Linear = stiffness,

@@ -158,6 +158,30 @@ fn a_dahl_loop_is_that_of_its_equation() {
     assert_close(small, 4.0 / 3.0 * p[0] * p[0] * 1e-21 / p[1], 1e-6, "small loop");
 }
 
+/// The slider with backlash against its definition marched from rest: what it takes out is its force over the way that it slides.
+#[test]
+fn a_loop_with_backlash_is_that_of_its_definition() {
+    let (p, steps) = ([5e3, 1.0, 3e-4], 100_000);
+    let law = Effect::ElasticSliderBacklash.law().unwrap();
+    for amplitude in [1e-4, 3e-4, 4e-4, 1e-3] {
+        let reach = p[1] / p[0] + 0.5 * p[2];
+        let (mut z, mut d, mut energy) = (0.0_f64, 0.0_f64, 0.0);
+        for n in 1..=3 * steps {
+            let next = amplitude * (std::f64::consts::TAU * f64::from(n) / f64::from(steps)).sin();
+            let before = p[0] * (z.abs() - 0.5 * p[2]).max(0.0) * z.signum();
+            z = (z + next - d).clamp(-reach, reach);
+            let after = p[0] * (z.abs() - 0.5 * p[2]).max(0.0) * z.signum();
+            if n > 2 * steps {
+                energy += 0.5 * (before + after) * (next - d);
+            }
+            d = next;
+        }
+        let wanted = 4.0 * p[1] * (amplitude - reach).max(0.0);
+        assert!((energy - wanted).abs() < 1e-6 * p[1] * amplitude, "{amplitude}: {energy} instead of {wanted}");
+        assert_close(law.energy_per_cycle(&p, amplitude, 9.0).unwrap(), wanted, 1e-14, "closed form");
+    }
+}
+
 /// What is not odd has a mean force: `(c_pull - c_push) omega X / pi` of the dashpot, the offset of the friction, that of the
 /// contact of the stop.
 #[test]

@@ -31,6 +31,7 @@ fn parameters_are_those_of_the_contract() {
         "c order",
         "stiffness force exponent",
         "stiffness force",
+        "stiffness force backlash",
         "c_pull c_push",
         "force offset",
         "stiffness",

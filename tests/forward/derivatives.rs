@@ -75,6 +75,7 @@ fn every_parameter_of_every_law() {
         source(Effect::Fractional, &[2], &[100.0, 0.4]),
         source(Effect::BoucWen, &[2], &[2e4, 5.0, 2.0]),
         source(Effect::Dahl, &[2], &[2e4, 5.0]),
+        source(Effect::ElasticSliderBacklash, &[2], &[4e4, 5.0, 1e-4]),
         source(Effect::AsymmetricViscous, &[2], &[60.0, 10.0]),
         source(Effect::AsymmetricCoulomb, &[2], &[5.0, 2.0]),
         source(Effect::Stiffness, &[1, 2], &[3e3]),
@@ -98,6 +99,7 @@ fn every_parameter_of_every_law() {
         Effect::Power,
         Effect::BoucWen,
         Effect::Dahl,
+        Effect::ElasticSliderBacklash,
         Effect::AsymmetricViscous,
         Effect::AsymmetricCoulomb,
     ];

@@ -142,6 +142,7 @@ fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
         (Effect::Iwan, vec![4e3, 0.8, -0.4, 0.5]),
         (Effect::Maxwell, vec![3e3, 4.0]),
         (Effect::Dahl, vec![4e3, 0.4]),
+        (Effect::ElasticSliderBacklash, vec![4e3, 0.4, 2e-4]),
         (Effect::BoucWen, vec![4e3, 0.4, 1.7]),
         (Effect::Viscous, vec![0.4]),
         (Effect::Mass, vec![0.02]),
