@@ -1,5 +1,5 @@
-//! A contact on one side only is told from one on both sides and from a quadratic spring, and these from it. Truth: the program's
-//! own simulation of three masses.
+//! A contact on one side only is told from one on both sides and from a quadratic spring, and these from it; a slider with play
+//! from one without. Truth: the program's own simulation of three masses.
 
 use dashpot::cli::answer;
 use serde_json::Value;
@@ -69,6 +69,12 @@ fn a_stop_between_two_masses_is_told() {
     is_told("stop", &[1, 2], &[("stiffness", 3e4), ("gap", -5e-5)]);
     // A crack that opens and closes.
     is_told("stop", &[2, 3], &[("stiffness", 1e4), ("gap", 0.0)]);
+}
+
+#[test]
+fn a_slider_with_backlash_is_told() {
+    is_told("elastic_slider_backlash", &[2], &[("stiffness", 2e4), ("force", 2.0), ("backlash", 1e-4)]);
+    is_told("elastic_slider", &[2], &[("stiffness", 2e4), ("force", 2.0)]);
 }
 
 #[test]
