@@ -5,6 +5,8 @@
 //! one; the steady state is where the two are the same, found by Newton's method in a bracket. Its derivatives are
 //! marched along with it and closed over the period alike.
 //!
+//! The law's force is the internal one itself, or `F = output(Z)` of an internal one `Z`, as behind a play.
+//!
 //! Where the motion is so small that nothing slips, the map gives back what it was given and any mean force would do;
 //! the force is then that of the spring about the middle of the motion, which is the limit of small slip.
 
@@ -42,12 +44,30 @@ pub(crate) trait InternalLaw: Sync {
     /// Derivative of the force at the end by parameter `k`, start and way held.
     fn step_by(&self, shape: &Self::Shape, p: &[f64], k: usize, start: f64, way: f64) -> f64;
 
-    /// Largest force, N: no way leads beyond it.
+    /// Largest internal force, N: no way leads beyond it.
     fn bound(&self, p: &[f64]) -> f64;
+
+    /// The law's force (N) at this internal one, and its slope by it.
+    fn output(&self, p: &[f64], internal: f64) -> [f64; 2] {
+        let _ = p;
+        [internal, 1.0]
+    }
+
+    /// Derivative of [`InternalLaw::output`] by parameter `k`, the internal force held.
+    fn output_by(&self, p: &[f64], k: usize, internal: f64) -> f64 {
+        let _ = (p, k, internal);
+        0.0
+    }
 
     /// Energy per cycle of `d = amplitude cos(omega t)`, J, where a closed form exists.
     fn loop_energy(&self, p: &[f64], amplitude: f64) -> Option<f64> {
         let _ = (p, amplitude);
+        None
+    }
+
+    /// Energy over one period of any motion, J, where it is known in closed form.
+    fn exact_energy(&self, p: &[f64], motion: &Motion) -> Option<f64> {
+        let _ = (p, motion);
         None
     }
 }
@@ -66,6 +86,14 @@ impl<T: InternalLaw + Send> InternalSteps for Stepped<T> {
 
     fn step_by(&self, k: usize, start: f64, way: f64) -> f64 {
         self.law.step_by(&self.shape, &self.p, k, start, way)
+    }
+
+    fn output(&self, internal: f64) -> [f64; 2] {
+        self.law.output(&self.p, internal)
+    }
+
+    fn output_by(&self, k: usize, internal: f64) -> f64 {
+        self.law.output_by(&self.p, k, internal)
     }
 }
 
@@ -119,7 +147,7 @@ impl<T: InternalLaw> Internal<T> {
                 high = start;
             }
             let newton = start + rest / (1.0 - slope);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
             let change = (next - start).abs();
             // Newton converges quadratically: what is left is rounding, as the step to the fixed point magnifies it.
             if change * (1.0 - slope) <= 1e-13 * size {
@@ -131,6 +159,7 @@ impl<T: InternalLaw> Internal<T> {
     }
 }
 
+/// Carries a derivative of the internal force around the period.
 fn carry(ways: &[(f64, Way)], slope: f64, unslipped: f64, added: impl Fn(usize) -> f64, out: &mut [f64]) {
     let mut value = unslipped;
     if slope <= SLIPLESS {
@@ -167,7 +196,7 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
 
     fn force(&self, p: &[f64], motion: &Motion, force: &mut [f64]) {
         let (ways, _) = self.ways(p, &motion.displacement);
-        ways.iter().zip(force).for_each(|((start, _), f)| *f = *start);
+        ways.iter().zip(force).for_each(|((start, _), f)| *f = self.0.output(p, *start)[0]);
     }
 
     fn tangent(&self, p: &[f64], motion: &Motion, direction: &Motion, tangent: &mut [f64]) {
@@ -180,13 +209,14 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
 
     fn force_and_tangent<'a>(&'a self, p: &'a [f64], motion: &'a Motion, force: &mut [f64]) -> Linearised<'a> {
         let (ways, slope) = self.ways(p, &motion.displacement);
-        ways.iter().zip(force).for_each(|((start, _), f)| *f = *start);
+        ways.iter().zip(force).for_each(|((start, _), f)| *f = self.0.output(p, *start)[0]);
         let (least, most) = extremes(&motion.displacement);
         let stiffness = self.0.stiffness(p);
         Box::new(move |direction, tangent| {
             let e = &direction.displacement;
             let unslipped = stiffness * (e[0] - 0.5 * (e[least] + e[most]));
             carry(&ways, slope, unslipped, |n| ways[n].1.by_way * (e[(n + 1) % e.len()] - e[n]), tangent);
+            tangent.iter_mut().zip(&ways).for_each(|(t, (start, _))| *t *= self.0.output(p, *start)[1]);
         })
     }
 
@@ -201,6 +231,9 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
             let by = |n: usize| self.0.step_by(&shape, p, k, ways[n].0, d[(n + 1) % d.len()] - d[n]);
             let added: Vec<f64> = (0..d.len()).map(by).collect();
             carry(&ways, slope, self.0.step_by(&shape, p, k, 0.0, d[0] - middle(d)), |n| added[n], tangent);
+            for (t, (start, _)) in tangent.iter_mut().zip(&ways) {
+                *t = *t * self.0.output(p, *start)[1] + self.0.output_by(p, k, *start);
+            }
         })
     }
 
@@ -216,12 +249,15 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
         self.0.loop_energy(p, amplitude)
     }
 
-    /// By the closed form for one harmonic, else the work on the way from each turning point of the motion to the next, by
+    /// By a closed form where there is one, else the work on the way from each turning point of the motion to the next, by
     /// Simpson's rule: a law that knows no rate knows nothing else of the motion.
     fn energy(&self, p: &[f64], motion: &Motion) -> f64 {
         if let [single] = motion.harmonics[..]
             && let Some(energy) = self.0.loop_energy(p, single.norm())
         {
+            return energy;
+        }
+        if let Some(energy) = self.0.exact_energy(p, motion) {
             return energy;
         }
         let points = turning_points(motion);
@@ -235,7 +271,7 @@ impl<T: InternalLaw + Copy + Send + 'static> Law for Internal<T> {
         };
         let path: Vec<f64> = (0..count).flat_map(segment).collect();
         let (ways, _) = self.ways(p, &path);
-        let force = |n: usize| ways[n % ways.len()].0;
+        let force = |n: usize| self.0.output(p, ways[n % ways.len()].0)[0];
         let pair = |n: usize| {
             let length = path[(n + 2) % path.len()] - path[n];
             (force(n) + 4.0 * force(n + 1) + force(n + 2)) / 6.0 * length
@@ -249,19 +285,25 @@ struct InternalMemory<T: InternalLaw> {
     law: T,
     shape: T::Shape,
     p: Vec<f64>,
-    /// Displacement (m) and force (N) of the last instant.
+    /// Displacement (m) and internal force (N) of the last instant.
     last: [f64; 2],
+}
+
+impl<T: InternalLaw> InternalMemory<T> {
+    fn way(&self, d: f64) -> Way {
+        self.law.step(&self.shape, &self.p, self.last[1], d - self.last[0])
+    }
 }
 
 impl<T: InternalLaw> Memory for InternalMemory<T> {
     fn trial(&self, d: f64, _step: f64) -> [f64; 2] {
-        let way = self.law.step(&self.shape, &self.p, self.last[1], d - self.last[0]);
-        [way.force, way.by_way]
+        let way = self.way(d);
+        let [force, slope] = self.law.output(&self.p, way.force);
+        [force, slope * way.by_way]
     }
 
-    fn advance(&mut self, d: f64, step: f64) -> f64 {
-        let [force, _] = self.trial(d, step);
-        self.last = [d, force];
-        force
+    fn advance(&mut self, d: f64, _step: f64) -> f64 {
+        self.last = [d, self.way(d).force];
+        self.law.output(&self.p, self.last[1])[0]
     }
 }

@@ -18,4 +18,10 @@ pub trait InternalSteps: Send + Sync {
 
     /// Derivative of the force at the end by parameter `k`, start and way held.
     fn step_by(&self, k: usize, start: f64, way: f64) -> f64;
+
+    /// The law's force (N) at this internal one, and its slope by it.
+    fn output(&self, internal: f64) -> [f64; 2];
+
+    /// Derivative of the law's force by parameter `k`, the internal one held.
+    fn output_by(&self, k: usize, internal: f64) -> f64;
 }

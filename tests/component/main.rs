@@ -106,6 +106,23 @@ fn single_laws_stand_behind_the_sum_by_what_they_predict() {
     assert!(alone.suggestions.iter().any(in_sum));
 }
 
+/// A rotary friction damper: after each reversal a play without force, which no other law has.
+#[test]
+fn a_slider_with_backlash_is_told_by_its_play() {
+    let (truth, plain) = ([5e6, 9000.0, 4e-3], [4e6, 9000.0]);
+    let diagnosis = diagnosed(&[], &tests(&[at(Effect::ElasticSliderBacklash, &truth)]));
+    let set = &diagnosis.steps.last().unwrap().added;
+    assert!(diagnosis.verdict == Verdict::Missing && set.len() == 1, "{set:?}");
+    assert_eq!(set[0].source.effect, Effect::ElasticSliderBacklash);
+    for (found, expected) in set[0].source.parameters.iter().zip(truth) {
+        assert!((found / expected - 1.0).abs() < 0.01, "{set:?}");
+    }
+    // Without a play it is the plain slider.
+    let diagnosis = diagnosed(&[], &tests(&[at(Effect::ElasticSlider, &plain)]));
+    let set = &diagnosis.steps.last().unwrap().added;
+    assert!(set.len() == 1 && set[0].source.effect == Effect::ElasticSlider, "{set:?}");
+}
+
 #[test]
 fn one_law_is_not_made_two() {
     let truth = [at(Effect::Quadratic, &[150_000.0])];

@@ -22,6 +22,7 @@ mod sizing;
 #[path = "../../examples/hidden_effects/specimen.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod specimen;
+mod stops;
 #[path = "../../examples/hidden_effects/suite.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod suite;

@@ -50,8 +50,8 @@ fn no_law_gives_energy_and_springs_take_none() {
             let energy = law.energy(&p, &motion);
             assert!(energy >= 0.0, "{effect} {p:?} gives {energy} J");
             if !effect.dissipates() {
-                // The kink of the gap costs the plain sum its accuracy.
-                let rounding = if effect == Effect::Gap { 2e-6 } else { 1e-12 };
+                // The kink of a stop costs the plain sum its accuracy.
+                let rounding = if matches!(effect, Effect::Gap | Effect::Stop) { 2e-6 } else { 1e-12 };
                 let work = motion.work(&sampled(law, &p, &motion));
                 assert!(energy == 0.0 && work.abs() < rounding, "{effect} takes {work} J");
             }
@@ -158,7 +158,32 @@ fn a_dahl_loop_is_that_of_its_equation() {
     assert_close(small, 4.0 / 3.0 * p[0] * p[0] * 1e-21 / p[1], 1e-6, "small loop");
 }
 
-/// What is not odd has a mean force: `(c_pull - c_push) omega X / pi` of the dashpot, the offset of the friction.
+/// The slider with backlash against its definition marched from rest: what it takes out is its force over the way that it slides.
+#[test]
+fn a_loop_with_backlash_is_that_of_its_definition() {
+    let (p, steps) = ([5e3, 1.0, 3e-4], 100_000);
+    let law = Effect::ElasticSliderBacklash.law().unwrap();
+    for amplitude in [1e-4, 3e-4, 4e-4, 1e-3] {
+        let reach = p[1] / p[0] + 0.5 * p[2];
+        let (mut z, mut d, mut energy) = (0.0_f64, 0.0_f64, 0.0);
+        for n in 1..=3 * steps {
+            let next = amplitude * (std::f64::consts::TAU * f64::from(n) / f64::from(steps)).sin();
+            let before = p[0] * (z.abs() - 0.5 * p[2]).max(0.0) * z.signum();
+            z = (z + next - d).clamp(-reach, reach);
+            let after = p[0] * (z.abs() - 0.5 * p[2]).max(0.0) * z.signum();
+            if n > 2 * steps {
+                energy += 0.5 * (before + after) * (next - d);
+            }
+            d = next;
+        }
+        let wanted = 4.0 * p[1] * (amplitude - reach).max(0.0);
+        assert!((energy - wanted).abs() < 1e-6 * p[1] * amplitude, "{amplitude}: {energy} instead of {wanted}");
+        assert_close(law.energy_per_cycle(&p, amplitude, 9.0).unwrap(), wanted, 1e-14, "closed form");
+    }
+}
+
+/// What is not odd has a mean force: `(c_pull - c_push) omega X / pi` of the dashpot, the offset of the friction, that of the
+/// contact of the stop.
 #[test]
 fn asymmetric_laws_have_a_mean_force() {
     let (omega, amplitude) = (70.0, 1e-3);
@@ -171,4 +196,8 @@ fn asymmetric_laws_have_a_mean_force() {
     assert_close(mean(Effect::AsymmetricViscous, &[3.0, 0.5]), wanted, 1e-6, "dashpot");
     // Where the motion turns, a sample may fall to either side.
     assert_close(mean(Effect::AsymmetricCoulomb, &[0.9, 0.3]), 0.3, 2e-3, "friction");
+    let angle = 0.4_f64.acos();
+    let wanted = 4e3 * amplitude * (angle.sin() - angle * angle.cos()) / std::f64::consts::PI;
+    assert_close(mean(Effect::Stop, &[4e3, 4e-4]), wanted, 1e-6, "stop");
+    assert_close(mean(Effect::Stop, &[4e3, -4e-4]), -wanted, 1e-6, "stop on the other side");
 }

@@ -65,6 +65,8 @@ fn limits_are_the_simpler_law_where_they_hold() {
         (Effect::BoucWen, &[1e4, 2.0, 40.0], Effect::ElasticSlider, 0.03),
         (Effect::Dahl, &[1e3, 50.0], Effect::Stiffness, 0.03),
         (Effect::Dahl, &[1e9, 2.0], Effect::Coulomb, 0.08),
+        (Effect::ElasticSliderBacklash, &[1e4, 2.0, 2e-5], Effect::ElasticSlider, 0.05),
+        (Effect::ElasticSliderBacklash, &[1e3, 2.0, 4e-4], Effect::Gap, 1e-9),
         (Effect::AsymmetricViscous, &[2.0, 2.03], Effect::Viscous, 0.02),
         (Effect::AsymmetricCoulomb, &[2.0, 0.04], Effect::Coulomb, 0.03),
     ];

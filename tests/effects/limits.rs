@@ -22,6 +22,7 @@ fn laws_contain_their_limits() {
     same_force((Effect::Maxwell, &[50.0, 1e12]), (Effect::Stiffness, &[50.0]), 0.1, &motion);
     same_force((Effect::Fractional, &[2.0, 1.0 - 1e-12]), (Effect::Viscous, &[2.0]), 1e-9, &motion);
     same_force((Effect::Gap, &[70.0, 0.0]), (Effect::Stiffness, &[70.0]), 1e-13, &motion);
+    same_force((Effect::ElasticSliderBacklash, &[4e3, 1.0, 0.0]), (Effect::ElasticSlider, &[4e3, 1.0]), 1e-9, &motion);
     same_force((Effect::ElasticSlider, &[70.0, 1e9]), (Effect::Stiffness, &[70.0]), 1e-12, &motion);
     same_force((Effect::Iwan, &[70.0, 1e9, -0.5, 1.0]), (Effect::Stiffness, &[70.0]), 1e-4, &motion);
     same_force((Effect::Iwan, &[4e3, 1.0, -0.5, 1e9]), (Effect::ElasticSlider, &[4e3, 1.0]), 1e-8, &motion);

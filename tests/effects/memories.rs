@@ -38,7 +38,15 @@ fn stepping_through_time_reaches_the_steady_state() {
         }
     }
     tried.dedup();
-    assert_eq!(tried, [Effect::ElasticSlider, Effect::Maxwell, Effect::Iwan, Effect::BoucWen, Effect::Dahl]);
+    let wanted = [
+        Effect::ElasticSlider,
+        Effect::Maxwell,
+        Effect::Iwan,
+        Effect::BoucWen,
+        Effect::Dahl,
+        Effect::ElasticSliderBacklash,
+    ];
+    assert_eq!(tried, wanted);
 }
 
 /// The slope is the derivative of the force, forwards and after a reversal.

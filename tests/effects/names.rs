@@ -31,11 +31,13 @@ fn parameters_are_those_of_the_contract() {
         "c order",
         "stiffness force exponent",
         "stiffness force",
+        "stiffness force backlash",
         "c_pull c_push",
         "force offset",
         "stiffness",
         "stiffness",
         "stiffness",
+        "stiffness gap",
         "stiffness gap",
         "mass",
         "loss_factor",
@@ -62,7 +64,7 @@ fn linear_laws_and_lossless_laws_are_known() {
     );
     assert_eq!(
         names(&|effect| !effect.dissipates()),
-        "stiffness cubic_stiffness quadratic_stiffness gap mass delay gain"
+        "stiffness cubic_stiffness quadratic_stiffness gap stop mass delay gain"
     );
     // In the tables every effect has its own title, formula and sentence.
     for text in [Effect::noun, Effect::title, Effect::symbol, Effect::sentence] {

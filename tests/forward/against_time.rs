@@ -43,6 +43,8 @@ fn stiffness_and_mass_laws_on_the_five_masses() {
     on_masses("mass", &[source(Effect::Mass, &[2], &[0.5])], 1000, false);
     on_masses("cubic", &[source(Effect::CubicStiffness, &[2], &[1e11])], 4000, true);
     on_masses("gap", &[source(Effect::Gap, &[2], &[1e5, 2e-4])], 4000, true);
+    on_masses("stop", &[source(Effect::Stop, &[2], &[3e4, -2e-4])], 4000, true);
+    on_masses("stop between masses", &[source(Effect::Stop, &[1, 2], &[3e4, 1e-5])], 4000, true);
 }
 
 #[test]

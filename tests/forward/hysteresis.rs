@@ -33,6 +33,7 @@ fn smooth_hysteresis_on_the_five_masses() {
     agrees("bouc-wen", source(Effect::BoucWen, &[2], &[2e4, 5.0, 2.0]), 2000, 3);
     agrees("bouc-wen between two masses", source(Effect::BoucWen, &[1, 2], &[5e4, 4.0, 1.0]), 2000, 3);
     agrees("dahl", source(Effect::Dahl, &[2], &[2e4, 5.0]), 2000, 3);
+    agrees("backlash", source(Effect::ElasticSliderBacklash, &[2], &[4e4, 5.0, 1e-4]), 4000, 3);
 }
 
 #[test]
@@ -90,6 +91,8 @@ fn only_laws_that_are_not_odd_make_even_harmonics() {
             Effect::QuadraticStiffness => vec![1e7],
             Effect::BoucWen => vec![2e4, 5.0, 3.0],
             Effect::Dahl => vec![2e4, 5.0],
+            Effect::ElasticSliderBacklash => vec![4e4, 5.0, 1e-4],
+            Effect::Stop => vec![3e4, 2e-4],
             _ => continue,
         };
         let sources = with(Source::known(effect, dashpot::effects::Place::Dofs(vec![2]), &example));

@@ -60,6 +60,8 @@ fn loops_enclose_the_energy_that_law_and_background_take_out() {
         (Effect::Coulomb, vec![0.5]),
         (Effect::Quadratic, vec![20.0]),
         (Effect::ElasticSlider, vec![400.0, 0.5]),
+        (Effect::ElasticSliderBacklash, vec![400.0, 0.5, 1e-3]),
+        (Effect::Stop, vec![1000.0, 0.003]),
         (Effect::Hysteretic, vec![60.0]),
         (Effect::CubicStiffness, vec![1e6]),
     ] {

@@ -24,6 +24,6 @@ mod tests {
         assert!(missing.iter().all(|effect| !LAWS.contains(effect)));
         let looked_for = [Effect::Coulomb, Effect::Iwan, Effect::Dahl, Effect::Maxwell, Effect::Power, Effect::Mass];
         assert!(looked_for.iter().all(|effect| LAWS.contains(effect)));
-        assert_eq!(LAWS.len(), 16);
+        assert_eq!(LAWS.len(), 18);
     }
 }

@@ -5,7 +5,7 @@
 //! friction that slips  the same on the side of its sign; at rest the force that keeps it there
 //! Masing hysteresis    F = (F_0 + F_1) / 2,  F_1 = F_r + 2 B((d_1 - d_r) / 2)       (from the reversal r)
 //! Maxwell              F = c v + (F_0 - c v) (1 - e^-a) / a,  a = k h / c           (exact for a straight step)
-//! one internal force   F = (F_0 + F_1) / 2,  F_1 = step(F_0, x)                     (Dahl, Bouc and Wen)
+//! one internal force   F = (G(Z_0) + G(Z_1)) / 2,  Z_1 = step(Z_0, x)               (Dahl, Bouc and Wen; G = output)
 //! ```
 //!
 //! Each element solves `x + w F(x) = b` for itself, with the receptance `w` over the step.
@@ -56,7 +56,8 @@ pub(super) struct Mean {
     pub by_start: f64,
 }
 
-/// A place on the way of a law with memory: displacement and force with their derivatives by all parameters.
+/// A place on the way of a law with memory: displacement and force, internal where it has one, with their derivatives by all
+/// parameters.
 #[derive(Debug, Clone, Default)]
 struct Instant {
     d: f64,
@@ -138,7 +139,8 @@ impl Element {
             }
             Form::Internal => {
                 let way = self.way(x);
-                Mean { force: 0.5 * (self.last.force + way.force), by_step: 0.5 * way.by_way, by_start: 0.0 }
+                let ([before, _], [after, slope]) = (self.output(self.last.force), self.output(way.force));
+                Mean { force: 0.5 * (before + after), by_step: 0.5 * slope * way.by_way, by_start: 0.0 }
             }
         }
     }
@@ -153,6 +155,17 @@ impl Element {
     fn way_by(&self, own: Option<usize>, x: f64) -> f64 {
         let by = |k: usize| self.internal.as_ref().map_or(0.0, |law| law.step_by(k, self.last.force, x));
         finite(own.map_or(0.0, by))
+    }
+
+    /// The law's force at an internal one, and its slope by it.
+    fn output(&self, internal: f64) -> [f64; 2] {
+        self.internal.as_ref().map_or([internal, 1.0], |law| law.output(internal))
+    }
+
+    /// Derivative of the law's force by a parameter, of which the internal force `z` has the derivative `by`.
+    fn output_by(&self, own: Option<usize>, z: f64, by: f64) -> f64 {
+        let explicit = |k: usize| self.internal.as_ref().map_or(0.0, |law| law.output_by(k, z));
+        self.output(z)[1] * by + own.map_or(0.0, explicit)
     }
 
     fn on_side(&self, v: f64, side: f64) -> f64 {
@@ -210,10 +223,11 @@ impl Element {
                 }
             }
             Form::Internal => {
-                let by_start = self.way(x).by_start;
+                let (way, before) = (self.way(x), self.last.force);
                 for (theta, out) in out.iter_mut().enumerate() {
-                    let end = by_start * self.last.by[theta][1] + self.way_by(own[theta], x);
-                    *out = 0.5 * (self.last.by[theta][1] + end);
+                    let ([_, start], own) = (self.last.by[theta], own[theta]);
+                    let end = way.by_start * start + self.way_by(own, x);
+                    *out = 0.5 * (self.output_by(own, before, start) + self.output_by(own, way.force, end));
                 }
             }
         }
@@ -227,7 +241,8 @@ impl Element {
                 let point = self.law.point(&self.parameters, d, self.on_side(v, side)).unwrap_or_default();
                 [point.force, finite(point.by_displacement), finite(point.by_velocity)]
             }
-            Form::Masing | Form::Maxwell | Form::Internal => [self.last.force, 0.0, 0.0],
+            Form::Masing | Form::Maxwell => [self.last.force, 0.0, 0.0],
+            Form::Internal => [self.output(self.last.force)[0], 0.0, 0.0],
         }
     }
 
@@ -238,7 +253,8 @@ impl Element {
                 let v = self.on_side(v, side);
                 own.map_or(0.0, |k| self.at_instant(k, d, v))
             }
-            Form::Masing | Form::Maxwell | Form::Internal => self.last.by[theta][1],
+            Form::Masing | Form::Maxwell => self.last.by[theta][1],
+            Form::Internal => self.output_by(own, self.last.force, self.last.by[theta][1]),
         }
     }
 
