@@ -102,6 +102,10 @@ fn bad_files_are_named_in_one_line() {
             "run.csv, line 1: the only column is the time; separate the columns by commas and name one QUANTITY@DOF [UNIT] a channel",
         ),
         (
+            "time [s],\"force@1 [N],acc@3 [g]\n0,1,2\n1,1,2\n2,1,2\n".to_owned(),
+            "run.csv, line 1: the quotation mark of \"force@1 [N],acc@3 [g]\" is not closed on its line; close or remove it",
+        ),
+        (
             with_header("time [s],force@1,acc@3 [g]"),
             "run.csv, line 1, force@1: \"force@1\" has no unit; add one in brackets: N, kN, lbf, N m",
         ),

@@ -67,6 +67,8 @@ pub enum RecordProblem {
     Channel { problem: ChannelError },
     #[error("column {number} has no name; name it QUANTITY@DOF [UNIT], such as acc@7 [m/s^2]")]
     NoName { number: usize },
+    #[error("the quotation mark of \"{name}\" is not closed on its line; close or remove it")]
+    OpenQuote { name: String },
     #[error("the structure has no DOF \"{label}\"; it has {known}")]
     UnknownDof { label: String, known: String },
     #[error("no DOF of the structure moves along \"{label}\"; write the direction of the base, such as base@z [m/s^2]")]

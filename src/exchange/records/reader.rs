@@ -108,6 +108,11 @@ fn columns(
     at: At<'_>,
 ) -> Result<Vec<(Channel, &'static Unit)>, RecordFileError> {
     let line = table.header_line;
+    // A unit may stand below its name.
+    if let Some(name) = table.header.iter().find(|name| name.lines().count() > 2) {
+        let first = name.lines().next().unwrap_or_default();
+        return Err(at.line(line, RecordProblem::OpenQuote { name: quote(first.as_bytes()) }));
+    }
     check_time_column(&table.header[0]).map_err(|problem| at.line(line, problem))?;
     if table.header.len() < 2 {
         return Err(at.line(line, RecordProblem::OneColumn));
