@@ -4,6 +4,7 @@ mod any_columns;
 pub(crate) mod base;
 pub(crate) mod base_in_time;
 pub(crate) mod channel;
+mod contacts;
 mod decay;
 mod design;
 mod even_columns;

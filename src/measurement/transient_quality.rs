@@ -1,6 +1,7 @@
 //! Quality of a record that is not steady: what an engineer should know before trusting it. Nothing is corrected here.
 
 use super::channel::Quantity;
+use super::contacts::{HAMMER, contacts, is_blow};
 use super::finding::{Finding, Flag};
 use super::kind::Kind;
 use super::proposal::propose;
@@ -8,10 +9,6 @@ use super::transient_run::TransientRun;
 use super::zero::zeros;
 use crate::math::spectrum::Spectrum;
 
-/// Force, over its largest, that belongs to a contact.
-const CONTACT: f64 = 0.1;
-/// Longest force, over the record, that is a hammer's.
-const HAMMER: f64 = 0.1;
 /// Root mean square at the end over the largest from which a decay is cut off.
 const CUT: f64 = 0.2;
 /// Share of the power above 0.4 of the sampling rate that is too much.
@@ -83,22 +80,6 @@ fn hammer(run: &TransientRun) -> Vec<Finding> {
     findings
 }
 
-/// First and last sample of each contact; pauses shorter than the longest contact belong to it.
-fn contacts(force: &[f64]) -> Vec<(usize, usize)> {
-    let most = force.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    if most == 0.0 {
-        return Vec::new();
-    }
-    let mut found: Vec<(usize, usize)> = Vec::new();
-    for n in (0..force.len()).filter(|&n| force[n].abs() > CONTACT * most) {
-        match found.last_mut() {
-            Some((first, last)) if n - *last <= (*last - *first).max(2) => *last = n,
-            _ => found.push((n, n)),
-        }
-    }
-    found
-}
-
 /// A channel that stands at the end of its range.
 fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
     let samples = run.samples(c);
@@ -113,12 +94,6 @@ fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
             format!("{longest} samples of {channel} in a row stand at {most:.4e} (SI units), the end of its range"),
         )
     })
-}
-
-/// Whether a force is a hammer's: contacts that are short beside the record.
-pub(super) fn is_blow(force: &[f64]) -> bool {
-    let length: usize = contacts(force).iter().map(|(first, last)| last - first + 1).sum();
-    length > 0 && length as f64 <= HAMMER * force.len() as f64
 }
 
 /// Whether a contact of a few samples has a flat top: equal samples at `most` between neighbours that are not equal.
