@@ -166,16 +166,31 @@ impl Search<'_> {
                 break;
             }
             let mut found = self.beside_rivals(level, &by_size.last, bare)?;
-            let Some(top) = found.first_mut() else { break };
-            if !self.is_better(level, top, best)? {
-                break;
-            }
-            *top = self.pruned(level, top)?;
+            let Some(better) = self.first_better(level, &found, best)? else { break };
+            let top = self.pruned(level, &found.remove(better))?;
+            found.insert(0, top);
             early(&suggestions(&self.levels[level], &found, self.control.is_late())?);
             by_size.earlier.push((level, best.clone()));
             by_size.last = found;
         }
         Ok(())
+    }
+
+    /// Number of the first of `found` that is better than `old`; of those behind a mass or spring, which must take away more, that with
+    /// the first other law.
+    fn first_better(
+        &self,
+        level: usize,
+        found: &[FittedRecords],
+        old: &FittedRecords,
+    ) -> Result<Option<usize>, RecordError> {
+        let other = found.iter().position(|f| !adds_constant(f));
+        for k in std::iter::once(0).chain(other.filter(|k| *k > 0)) {
+            if found.get(k).map_or(Ok(false), |f| self.is_better(level, f, old))? {
+                return Ok(Some(k));
+            }
+        }
+        Ok(None)
     }
 
     fn agrees(&self, fit: &FittedRecords) -> bool {
@@ -196,7 +211,7 @@ impl Search<'_> {
         if gain < GAIN && !great {
             return Ok(false);
         }
-        let constant = new.effects.last().is_some_and(|e| e.effect.is_mass_or_spring());
+        let constant = adds_constant(new);
         // Both leave no more than noise: what is known of the corrections decides, where they tell much. A mass or spring would be one
         // of them.
         if misfit(old) < AGREES {
@@ -244,6 +259,11 @@ fn agrees(fit: &FittedRecords, least: f64) -> bool {
     let enough = if fit.effects.is_empty() { least } else { ENOUGH.max(least) };
     let plausible = corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64);
     misfit(fit) < enough && plausible && (!fit.effects.is_empty() || !is_strained(fit))
+}
+
+/// Whether the last effect of a fit is a mass or a spring.
+fn adds_constant(fit: &FittedRecords) -> bool {
+    fit.effects.last().is_some_and(|e| e.effect.is_mass_or_spring())
 }
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.
