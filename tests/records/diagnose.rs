@@ -7,7 +7,7 @@ use dashpot::diagnosis::result::{Added, Diagnosis, Step, Verdict};
 use dashpot::diagnosis::updating::parameters::UpdatingParameter;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::transient_run::TransientLabel;
-use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientRun};
+use dashpot::measurement::{Channel, Flag, Kind, Quantity, Record, TransientRun};
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::response::time_integration::TimeModel;
 use dashpot::structure::{Part, Structure};
@@ -130,6 +130,22 @@ fn friction_in_a_decay_is_found() {
 #[test]
 fn a_cubic_spring_in_a_decay_is_found() {
     found(&diagnosed(&[at(Effect::CubicStiffness, 6, &[2e7])]), Effect::CubicStiffness, 6, 2e7);
+}
+
+/// Lasers that stand off the beam by many times its motion show the same decay; what is taken out is told.
+#[test]
+fn sensors_off_zero_change_nothing() {
+    let project = Project::new(short_cantilever(4), &[at(Effect::CubicStiffness, 6, &[2e7])]);
+    let run = &project.runs[0];
+    let channel = |c: usize| run.samples(c).iter().map(|y| y + 0.05 * (c + 1) as f64).collect::<Vec<f64>>();
+    let samples = (0..run.channels().len()).map(channel).collect();
+    let record = Record::new(run.time().to_vec(), run.channels().to_vec(), samples).unwrap();
+    let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+    let moved = TransientRun::new(label, Arc::new(record), &[]).unwrap();
+    assert_eq!(moved.findings.iter().filter(|f| f.flag == Flag::Offset).count(), 3, "{:?}", moved.findings);
+    assert!(run.findings.iter().all(|f| f.flag != Flag::Offset), "{:?}", run.findings);
+    let project = Project { runs: [moved], ..project };
+    found(&project.diagnosed(&Control::unattended()), Effect::CubicStiffness, 6, 2e7);
 }
 
 /// Modes that are off by a per cent in frequency, each its own way: what is told is found beside them, and once all of it stands
