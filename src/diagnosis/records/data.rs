@@ -1,23 +1,20 @@
 //! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
 
-use super::amplitude::peaks;
+use super::frequencies::Motions;
 use super::part_directions::PartDirections;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
-use crate::math::statistics::{median, root_mean_square};
+use crate::math::statistics::median;
 use crate::measurement::{Channel, Kind, TransientRun, without_zero};
 use crate::response::transient::{TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
 use crate::structure::{Part, Structure, StructureError};
-use dashpot_numerics::RealTransform;
 use std::f64::consts::TAU;
 
 /// Most modes that are followed one by one; the rest by residual flexibility.
 const MOST_MODES: usize = 8;
-/// Height over the noise from which a peak of the spectrum counts as a mode that is seen.
-const SEEN: f64 = 20.0;
 /// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
 const ABOVE: f64 = 2.0;
 /// Sampling rate over the highest frequency of motion that is enough: it holds the harmonics of a law that is not linear, and
@@ -306,6 +303,9 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let largest = samples.iter().map(|y| y.iter().fold(0.0_f64, |m, y| m.max(y.abs()))).collect();
     let noise: Vec<f64> = samples.iter().map(|y| noise_of(y, step)).collect();
     let sigma = samples.iter().zip(&noise).map(|(y, noise)| vec![*noise; y.len()]).collect();
+    let motions = Motions { samples: &samples, noise: &noise, step };
+    let dominant_hz = motions.dominant_hz();
+    let (median_hz, highest_hz) = (motions.median_hz().max(dominant_hz), motions.highest_hz(dominant_hz));
     let mut record = RecordData {
         index,
         file: run.file.clone(),
@@ -324,13 +324,10 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         by_force: Vec::new(),
         scatter: 0.0,
         substeps: 1,
-        dominant_hz: 0.0,
-        median_hz: 0.0,
-        highest_hz: 0.0,
+        dominant_hz,
+        median_hz,
+        highest_hz,
     };
-    record.dominant_hz = dominant_hz(&record);
-    record.median_hz = median_hz(&record).max(record.dominant_hz);
-    record.highest_hz = highest_hz(&record);
     record.substeps = record.fine_steps();
     Ok(record)
 }
@@ -350,48 +347,6 @@ pub(crate) fn noise_of(signal: &[f64], step: f64) -> f64 {
     // Amplitude of a line of white noise behind Hann's window: Rayleigh with a median of 0.8326 sigma sqrt(6 / N).
     let sigma = high / (0.8326 * (6.0 / signal.len() as f64).sqrt());
     sigma.max(1e-6 * largest).max(f64::MIN_POSITIVE)
-}
-
-fn dominant_hz(record: &RecordData) -> f64 {
-    let best = |y: &Vec<f64>| Spectrum::new(y, record.step).and_then(|s| s.highest_peak());
-    let strongest = |c: usize| best(&record.samples[c]).map(|p| (p.amplitude / record.noise[c], p.frequency_hz));
-    let all = (0..record.samples.len()).filter_map(strongest);
-    all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(1.0 / (record.step * record.len() as f64), |p| p.1)
-}
-
-/// Frequency (Hz) that halves the power above the noise of the channel that stands out most: where a law feeds modes that are far from
-/// the highest peak, their lines are broad and low, and hold most of the motion all the same.
-fn median_hz(record: &RecordData) -> f64 {
-    let above = |c: usize| {
-        let power = root_mean_square(&record.samples[c]).powi(2);
-        (power / record.noise[c].powi(2), c)
-    };
-    let Some((_, c)) = (0..record.samples.len()).map(above).max_by(|a, b| a.0.total_cmp(&b.0)) else { return 0.0 };
-    let mut work = record.samples[c].clone();
-    let lines = RealTransform::new(work.len()).forward(&mut work);
-    let floor = record.len() as f64 * record.noise[c].powi(2);
-    let powers: Vec<f64> = lines.iter().skip(1).map(|line| (line.norm_sqr() - floor).max(0.0)).collect();
-    let half = 0.5 * powers.iter().sum::<f64>();
-    let mut sum = 0.0;
-    let reaches = |power: &f64| {
-        sum += power;
-        sum >= half
-    };
-    let number = 1 + powers.iter().position(reaches).unwrap_or(0);
-    number as f64 / (record.len() as f64 * record.step)
-}
-
-/// Highest frequency (Hz) at which a channel shows a peak well above the noise and not far below the highest.
-fn highest_hz(record: &RecordData) -> f64 {
-    let mut highest = record.dominant_hz;
-    for (c, y) in record.samples.iter().enumerate() {
-        let Some(spectrum) = Spectrum::new(y, record.step) else { continue };
-        let floor = SEEN * record.noise[c] * (6.0 / y.len() as f64).sqrt();
-        let seen = spectrum.peaks(0.003).into_iter().filter(|p| p.amplitude > floor);
-        highest = seen.map(|p| p.frequency_hz).fold(highest, f64::max);
-    }
-    let shown = peaks(&record.samples[0], record.step, 0.05, 1);
-    shown.into_iter().fold(highest, f64::max)
 }
 
 /// The channels that differ in what they measure and where.

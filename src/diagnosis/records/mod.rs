@@ -22,6 +22,7 @@ mod fitted;
 mod followed;
 mod force_noise;
 mod free_force;
+mod frequencies;
 mod held;
 mod initial_states;
 mod laws;
