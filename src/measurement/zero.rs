@@ -99,7 +99,7 @@ mod tests {
     /// A force that holds a load and lets go of it, or a slow one, is no zero.
     #[test]
     fn a_slow_force_is_no_zero() {
-        let slow: Vec<f64> = (0..4000).map(|n| 2.0 * (TAU * n as f64 / 3000.0).sin()).collect();
+        let slow: Vec<f64> = (0..4000).map(|n| 2.0 * (TAU * f64::from(n) / 3000.0).sin()).collect();
         let held: Vec<f64> = (0..4000).map(|n| if n < 2500 { 5.0 } else { 0.0 }).collect();
         assert_eq!(zero(&slow), 0.0);
         assert_eq!(zero(&held), 0.0);
