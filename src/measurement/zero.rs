@@ -12,7 +12,8 @@ use super::transient_run::TransientRun;
 use crate::math::statistics::{mean, median, root_mean_square};
 use dashpot_numerics::RealTransform;
 
-/// Lines beside 0 Hz, and how many times their root mean square a mean is that no force has by chance: of Gaussian noise 1e-9.
+/// Lines beside 0 Hz, and how many times their root mean square a mean is that no force has by chance: of Gaussian noise
+/// one in two million (Student's t of 16 degrees of freedom).
 const BESIDE: usize = 8;
 const ABOVE: f64 = 8.0;
 /// Deviations of the median of a resting force from which it is a zero.
@@ -82,7 +83,7 @@ mod tests {
         x - x.floor() - 0.5
     }
 
-    /// A sweep, noise and a blow have none, however short; a constant beside them is found.
+    /// A sweep, noise and a blow have none; a constant beside them is found.
     #[test]
     fn a_zero_is_found_where_there_is_one() {
         let sweep = |n: usize| (TAU * (0.01 + 2e-5 * n as f64) * n as f64).sin();

@@ -6,7 +6,7 @@ use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
-use crate::math::statistics::median;
+use crate::math::statistics::{mean, median};
 use crate::measurement::{Channel, Kind, TransientRun, without_zero};
 use crate::response::transient::{TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
@@ -334,7 +334,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
 
 /// A signal less its mean, and the mean.
 fn centred(signal: &[f64]) -> (Vec<f64>, f64) {
-    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let mean = mean(signal);
     (signal.iter().map(|y| y - mean).collect(), mean)
 }
 
