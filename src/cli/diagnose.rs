@@ -136,6 +136,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "runs": project.runs.iter().map(run).collect::<Vec<_>>(),
     "records": diagnosis.records.map(|r| json!({"error_before": r.error_before, "error_after": r.error_after,
             "noise_floor": r.noise_floor})),
+        "test_errors": diagnosis.test_errors.map(|t| json!({"frequency_scatter": t.frequency_scatter, "error_left": t.error_left})),
         "record_findings": run_flags::records(project),
         "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
             .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))
@@ -220,6 +221,12 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
         let without = if k == 0 { "the model as it is" } else { "the model corrected" };
         let what = if names.is_empty() { without.to_owned() } else { names.join(", ") };
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
+    }
+    if let Some(test) = diagnosis.test_errors {
+        let [left, scatter] = [test.error_left, test.frequency_scatter].map(|x| number(100.0 * x));
+        lines.push_str(&format!(
+            "  {left} %  the same, every record with frequencies of its own, which differ by {scatter} %, every sensor with a gain\n"
+        ));
     }
     for test in &diagnosis.next_test {
         lines.push_str(&format!("\nnext test: {}: {}\n", findings::next_test(structure, test), test.why));

@@ -136,6 +136,7 @@ fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         records: None,
+        test_errors: None,
         complete: true,
         runs: Vec::new(),
     };

@@ -127,6 +127,8 @@ pub struct Diagnosis {
     pub steps: Vec<Step>,
     /// Errors of the records that are not steady, where a project has them beside steady runs.
     pub records: Option<RecordErrors>,
+    /// Of records, what the test itself adds to the error of the last step, where that is much of it.
+    pub test_errors: Option<TestErrors>,
     /// Tests worth doing next.
     pub next_test: Vec<NextTest>,
     /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
@@ -149,6 +151,15 @@ pub struct RecordErrors {
     pub error_after: f64,
     /// What noise alone would leave.
     pub noise_floor: f64,
+}
+
+/// What the test itself adds to what a model leaves of its records.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TestErrors {
+    /// Relative standard deviation of the natural frequencies from record to record: temperature, re-seating.
+    pub frequency_scatter: f64,
+    /// Error that is left where every record has frequencies and zeros, and every sensor a gain, of its own.
+    pub error_left: f64,
 }
 
 impl Diagnosis {

@@ -112,6 +112,7 @@ mod tests {
             corrections: Vec::new(),
             channel_faults: Vec::new(),
             records: None,
+            test_errors: None,
             complete: true,
             runs: Vec::new(),
         }

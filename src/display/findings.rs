@@ -114,9 +114,17 @@ pub fn sentence_of(diagnosis: &Diagnosis, [before, noise_floor]: [f64; 2]) -> St
         ),
         Verdict::Adequate | Verdict::Detuned if is_detuned(diagnosis) => {
             let after = in_words(diagnosis.steps.last().map_or(diagnosis.noise_floor, |s| s.error));
-            format!(
-                "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
-            )
+            match diagnosis.test_errors {
+                None => format!(
+                    "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor})."
+                ),
+                Some(test) => format!(
+                    "It is only detuned: with the corrections below its error falls from {error} to {after} (noise {floor}). \
+                     Of that {} is left where every record has frequencies of its own, which differ by {}, and every sensor a gain.",
+                    in_words(test.error_left),
+                    format::percent(test.frequency_scatter)
+                ),
+            }
         }
         Verdict::Adequate | Verdict::Detuned => explained(before, noise_floor),
         _ if before > 10.0 => {

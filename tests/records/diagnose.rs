@@ -206,6 +206,25 @@ fn modes_that_are_damped_otherwise_than_stated_are_told() {
     assert!((error / promised - 1.0).abs() < 0.05 && error < 0.2 * diagnosis.error_before, "{error} {promised}");
 }
 
+/// Of a specimen that was warmer in one test than in the other nothing is missing, and how much of the error that makes is said.
+#[test]
+fn frequencies_that_differ_from_record_to_record_are_no_effect() {
+    let model = short_cantilever(4);
+    let known = vec![at(Effect::Viscous, 6, &[0.05])];
+    let stiffness = [1.018, 1.022];
+    let specimen = |factor: f64| decay(&model.with_factors(&[(Part::Stiffness, factor)]), &known, 1500, 7);
+    let runs = stiffness.map(specimen);
+    let records = Records::new(&model, &known, &runs).unwrap();
+    let diagnosis = diagnose_records(&records, &[], &Control::unattended(), &|_| {}).unwrap();
+    assert!(diagnosis.suggestions.is_empty(), "{:?}", diagnosis.suggestions);
+    assert_eq!(diagnosis.verdict, Verdict::Detuned);
+    let last = diagnosis.steps.last().unwrap().error;
+    let test = diagnosis.test_errors.unwrap();
+    let scatter = 0.5 * (stiffness[1] / stiffness[0]).ln() / 2.0_f64.sqrt();
+    assert!((test.frequency_scatter / scatter - 1.0).abs() < 0.1, "{} of {scatter}", test.frequency_scatter);
+    assert!(test.error_left < 5e-3 && last > 4.0 * test.error_left, "{} of {last}", test.error_left);
+}
+
 /// A clamp that the model takes for rigid and that gives way is told as that, and nothing is missing.
 #[test]
 fn a_clamp_that_gives_way_is_told() {
@@ -241,6 +260,7 @@ fn the_missing_force_of_a_decay_is_that_of_its_law() {
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         records: None,
+        test_errors: None,
         complete: true,
         runs: Vec::new(),
     };

@@ -58,6 +58,7 @@ pub fn diagnose_component(
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         records: None,
+        test_errors: None,
         complete: true,
         runs: Vec::new(),
     };

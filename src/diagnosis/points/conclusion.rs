@@ -84,6 +84,7 @@ fn as_stated(balance: &Balance) -> Diagnosis {
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         records: None,
+        test_errors: None,
         complete: true,
         runs: Vec::new(),
     }

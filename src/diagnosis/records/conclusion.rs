@@ -8,13 +8,17 @@ use super::problem::beyond_priors;
 use super::search::{Search, SetsBySize};
 use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
 use super::told::added_as_told;
-use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
+use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, TestErrors, Verdict};
 use crate::diagnosis::updating::correction::Correction;
+use crate::math::statistics::standard_deviation;
 use crate::structure::Part;
 
 /// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
+
+/// Share of the promised error that errors of the test leave at most where they are told.
+const OF_THE_TEST: f64 = 0.7;
 
 /// Promised error with corrected parts over that without from which on they are told.
 const BETTER: f64 = 0.8;
@@ -156,6 +160,7 @@ impl Search<'_> {
         let error = self.promised(told, &told.effects)?;
         diagnosis.steps.push(Step { added: added(told), error, misfit: misfit(told) });
         diagnosis.corrections.extend(corrections(self.records, told));
+        diagnosis.test_errors = self.test_errors(told, error)?;
         if told.effects.is_empty() {
             diagnosis.suggestions.clear();
             diagnosis.verdict = match left {
@@ -168,9 +173,9 @@ impl Search<'_> {
         for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY) {
             self.complete(suggestion, (told, error), fits)?;
         }
-        let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
+        let words = self.words_on_all(told, error, diagnosis)?;
         if let Some(first) = diagnosis.suggestions.first_mut() {
-            first.evidence.extend(self.words_on_all(told, error, floor)?);
+            first.evidence.extend(words);
         }
         if self.is_open(diagnosis) {
             diagnosis.next_test = self.next_tests(fits)?;
@@ -225,15 +230,35 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// What errors of the test - frequencies of each record, zeros, gains - add to the promised `error`; `None` where that is little.
+    fn test_errors(&self, told: &FittedRecords, error: f64) -> Result<Option<TestErrors>, RecordError> {
+        if told.shifts.len() < 2 {
+            return Ok(None);
+        }
+        let error_left = told.error(self.records, 0.0, 1.0)?;
+        // A shift is that of the stiffness.
+        let frequency_scatter = 0.5 * standard_deviation(&told.shifts);
+        Ok((error_left < OF_THE_TEST * error).then_some(TestErrors { frequency_scatter, error_left }))
+    }
+
     /// What is said of all that is told together.
-    fn words_on_all(&self, told: &FittedRecords, error: f64, floor: f64) -> Result<Vec<String>, RecordError> {
+    fn words_on_all(&self, told: &FittedRecords, error: f64, diagnosis: &Diagnosis) -> Result<Vec<String>, RecordError> {
         let mut words = Vec::new();
+        let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         let count = told.effects.len();
         if count > 1 {
             words.push(format!("With all {count} effects the error is {:.2} %.", 100.0 * error));
         }
         let whole = self.levels.len() - 1;
-        if error > PHASE_LOST[0] && whole > 0 {
+        let test = diagnosis.test_errors;
+        words.extend(test.map(|t| {
+            format!(
+                "Of that {:.2} % is left where every record has frequencies of its own, which differ by {:.3} %, and every sensor a gain.",
+                100.0 * t.error_left,
+                100.0 * t.frequency_scatter
+            )
+        }));
+        if test.is_none() && error > PHASE_LOST[0] && whole > 0 {
             let parts = self.carried(told, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
             let left = parts.error(&self.levels[0], 0.0, 1.0)?;
             if left < PHASE_LOST[1] * error {
@@ -244,6 +269,7 @@ impl Search<'_> {
             }
         }
         if misfit(told) > self.records.agreement(AGREES) && error > floor {
+            let error = test.map_or(error, |t| t.error_left);
             words.push(format!(
                 "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
                 error / floor

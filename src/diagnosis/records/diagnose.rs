@@ -78,6 +78,7 @@ pub fn diagnose_records(
         corrections: Vec::new(),
         channel_faults: Vec::new(),
         records: None,
+        test_errors: None,
         complete: true,
         runs: Vec::new(),
     };

@@ -1,9 +1,9 @@
 //! What is told of a fit, so that the error that is promised is the one that comparing the project shows once it is done.
 //!
-//! A search varies all stiffness and that of every mode at once, which say much the same, and a shift of every record, which no
-//! project states. What is told must do without: the fit is made again with all stiffness alone, with all mass beside it, with
-//! modes alone and with neither, each beside the known sources that moved, and the plainest that leaves as little stands for all
-//! of it. Errors of shapes and offsets stay free meanwhile, or the rest would bend to them; the promise is made without them.
+//! A search varies all stiffness and that of every mode at once, which say much the same. What is told must do without: the fit is
+//! made again with all stiffness alone, with all mass beside it, with modes alone and with neither, each beside the known sources
+//! that moved, and the plainest that leaves as little stands for all of it. Errors of shapes, offsets and a shift of every record,
+//! which no project states, stay free meanwhile, or the rest would bend to them; the promise is made without them.
 
 use super::compare::started_from;
 use super::data::RecordError;
@@ -24,11 +24,11 @@ const ROUNDS: [usize; 2] = [2, 4];
 const PROMISING: [usize; 2] = [3, 3];
 
 impl Search<'_> {
-    /// `fit` with the corrections that can be told, without shifts; its effects fitted beside them. Where time is up they are
+    /// `fit` with the corrections that can be told; its effects fitted beside them. Where time is up they are
     /// told as they are.
     pub(super) fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         if self.control.is_late() {
-            return Ok(FittedRecords { shifts: vec![0.0; fit.shifts.len()], ..fit.clone() });
+            return Ok(fit.clone());
         }
         let mut best: Option<(FittedRecords, usize)> = None;
         for (fit, sizes) in self.by_sizes(fit) {
@@ -121,7 +121,6 @@ impl Search<'_> {
             start.modes.iter_mut().zip(by_parts).for_each(|(v, more)| *v = if by_mode { *v + more } else { 0.0 });
             start.mass = if what[2] { fit.mass } else { 0.0 };
             start.parts.fill(0.0);
-            start.shifts.fill(0.0);
             let mut next = self.fitted_anew(&start, mask.clone())?;
             let mut found = vec![(next.clone(), number(&mask))];
             let free = self.kept(&mut next, mask.clone());
@@ -146,7 +145,7 @@ impl Search<'_> {
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         // What an effect is worth is told by the fit in which all else was free, or it would stand for what is held here.
-        let free = Free { corrections, shifts: false, shapes: true, effects: false };
+        let free = Free { corrections, shifts: true, shapes: true, effects: false };
         let problem = FitProblem { records: self.records, free, share: 1.0, control: self.control };
         match problem.begin(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
