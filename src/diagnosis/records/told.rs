@@ -13,6 +13,7 @@ use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use crate::diagnosis::result::Added;
 use crate::effects::{Place, Source};
+use crate::math::statistics::mean;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
@@ -128,6 +129,12 @@ impl Search<'_> {
                 found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
             }
             found.iter_mut().for_each(|(told, _)| keep_deviations(told, fit));
+            // What all records have in common is no scatter, and no project states it as that.
+            if what == [false; 3] {
+                found.retain(|(told, _)| mean(&told.shifts).abs() < LEAST[1]);
+            } else {
+                found.iter_mut().for_each(|(told, _)| without_common_shift(told, by_mode));
+            }
             Ok(found)
         };
         for k in 0..variants.len() {
@@ -211,6 +218,17 @@ fn keep_deviations(told: &mut FittedRecords, fit: &FittedRecords) {
     let count = parameters(fit).min(told.deviations.len());
     for (told, own) in told.deviations[..count].iter_mut().zip(&fit.deviations) {
         *told = own * share;
+    }
+}
+
+/// Puts what the shifts of all records have in common on the stiffness of the modes, or on all stiffness: the same model.
+fn without_common_shift(told: &mut FittedRecords, by_mode: bool) {
+    let common = mean(&told.shifts);
+    told.shifts.iter_mut().for_each(|v| *v -= common);
+    if by_mode {
+        told.modes.iter_mut().for_each(|v| *v += common);
+    } else {
+        told.stiffness += common;
     }
 }
 
