@@ -242,7 +242,12 @@ impl Search<'_> {
     }
 
     /// What is said of all that is told together.
-    fn words_on_all(&self, told: &FittedRecords, error: f64, diagnosis: &Diagnosis) -> Result<Vec<String>, RecordError> {
+    fn words_on_all(
+        &self,
+        told: &FittedRecords,
+        error: f64,
+        diagnosis: &Diagnosis,
+    ) -> Result<Vec<String>, RecordError> {
         let mut words = Vec::new();
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         let count = told.effects.len();
