@@ -1,12 +1,13 @@
 //! Opening a file and reading its channels.
 
-use crate::contents::{Axis, Contents};
+use crate::contents::{Axis, Contents, Kind, Set};
 use crate::detect;
 use crate::error::{Error, Fault, Read};
 use crate::gathered;
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
 use crate::source::{MOST_VALUES, Source};
+use crate::units::{is_unit, split};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use uff::Values;
@@ -54,8 +55,22 @@ fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree
         gathered::one_channel_each(contents, source)
     });
     let (mut contents, source) = opened.map_err(|fault| fault.of(&name))?;
+    units_of_names(&mut contents);
     tell_apart(&mut contents);
     Ok(DataFile { path: path.to_owned(), contents, source })
+}
+
+/// Channels without a unit have that which stands in brackets at the end of their name: `Acc 1 (g)`. The name stays.
+fn units_of_names(contents: &mut Contents) {
+    let measured = |set: &&mut Set| !matches!(set.kind, Kind::Matrix | Kind::Geometry | Kind::Shape);
+    for channel in contents.sets.iter_mut().filter(measured).flat_map(|set| &mut set.channels) {
+        let bracketed = channel.name.trim_end().ends_with([']', ')']);
+        if let (true, (_, unit)) = (channel.unit.is_empty() && bracketed, split(&channel.name))
+            && is_unit(&unit)
+        {
+            channel.unit = unit;
+        }
+    }
 }
 
 /// Channels of one set that have the same name are numbered from the second on: `Acc`, `Acc (2)`.

@@ -5,11 +5,16 @@ pub(crate) mod cell;
 mod clock;
 mod header;
 mod header_line;
+mod header_units;
 mod indices;
 mod listed;
+mod moment;
 mod sampling;
 mod sets;
+mod text_columns;
+mod wrapped;
 
 pub(crate) use blocks::{Block, Blocks};
 pub(crate) use cell::Cell;
 pub(crate) use sets::{Column, Columns, TableSource, finish};
+pub(crate) use text_columns::{FEWEST, texts_of};

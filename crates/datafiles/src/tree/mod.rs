@@ -1,6 +1,7 @@
 //! Files that are trees of named arrays (MAT, HDF5, NumPy): which arrays are channels of one set, which is their abscissa.
 
 mod abscissa;
+mod cells;
 mod columns;
 mod context;
 mod headers;
@@ -74,7 +75,7 @@ impl Node {
                 "its {} numbers stand one by one in a cell with texts; save them as an array (cell2mat of the cells with numbers)",
                 words.len() - texts
             )),
-            _ => Node::Group(entries),
+            _ => Node::Group(cells::named(entries)),
         }
     }
 }
