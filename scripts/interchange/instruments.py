@@ -284,5 +284,86 @@ def _(p):
     text(p, ['<?xml version="1.0" encoding="UTF-8"?>', '<atfx_file version="atfx_file: V1.2">', "<instance_data/>", "</atfx_file>"])
 
 
+# Cells, heads and stamps as programs write them.
+
+
+def stamps(form, behind=""):
+    start = datetime.datetime(2024, 3, 1, 12)
+    return [(start + datetime.timedelta(milliseconds=1000 * t)).strftime(form)[:-3] + behind for t in T]
+
+
+@case("matlab-duration.csv")
+def _(p):
+    text(p, ["Time,Force_N,Acc_g"] + table([[f"{t:.6g} sec" for t in T], FORCE, ACC / G], ","))
+
+
+@case("matlab-datestr.csv")
+def _(p):
+    text(p, ["Time,Force [N],Acc [g]"] + table([stamps("%d-%b-%Y %H:%M:%S.%f"), FORCE, ACC / G], ","))
+
+
+@case("american-months.csv")
+def _(p):
+    text(p, ["Time;Force [N];Acc [g]"] + table([stamps("%b %d, %Y %I:%M:%S.%f", " PM"), FORCE, ACC / G], ";"))
+
+
+@case("compact-iso.csv")
+def _(p):
+    text(p, ["Time;Force [N];Acc [g]"] + table([stamps("%Y%m%dT%H%M%S.%f"), FORCE, ACC / G], ";"))
+
+
+@case("line-breaks-in-heads.csv")
+def _(p):
+    text(p, ['"Zeit\n[s]";"Kraft\n[N]";"Beschl.\n[m/s²]"'] + table([T, FORCE, ACC], ";", True), "cp1252")
+
+
+@case("state-in-every-row.csv")
+def _(p):
+    text(p, ["Time,State,Force [N],Acc [g]"] + table([T, ["running"] * N, FORCE, ACC / G], ","))
+
+
+@case("numbers-with-units.csv", (), LINE)
+def _(p):
+    text(p, ["t,F,a"] + [f"{t:.4f} s,{f:.6g} N,{a:.6g} m/s^2" for t, f, a in zip(T, FORCE, ACC)])
+
+
+@case("page-heads.txt")
+def _(p):
+    rows = table([T, FORCE, ACC], "\t")
+    text(p, [line for i in range(0, N, 100) for line in ["Time [s]\tForce [N]\tAcc [m/s^2]", *rows[i:i + 100], ""]])
+
+
+@case("cell-table.mat")
+def _(p):
+    cells = np.empty((3, 3), dtype=object)
+    for j, column in enumerate([("Time", "s", T), ("Force", "N", FORCE), ("Acc", "g", ACC / G)]):
+        cells[0, j], cells[1, j], cells[2, j] = column[0], column[1], column[2][:, None]
+    scipy.io.savemat(p, {"data": cells})
+
+
+@case("labels-of-one-array.mat")
+def _(p):
+    scipy.io.savemat(p, {"Fs": FS, "x": np.vstack([FORCE, ACC]), "xLabels": np.array(["Force (N)", "Acc (m/s^2)"], dtype=object), "date": "01-Mar-2024"})
+
+
+@case("single-matrix.mat", (), LINE)
+def _(p):
+    scipy.io.savemat(p, {"M": np.column_stack([T, FORCE, ACC])})
+
+
+@case("units-in-names.tdms")
+def _(p):
+    with TdmsWriter(str(p)) as w:
+        w.write_segment([RootObject({"Sampling Rate": "1000"}), GroupObject("Data"), ChannelObject("Data", "Force (N)", FORCE), ChannelObject("Data", "Acc (g)", ACC / G)])
+
+
+@case("lists-as-attributes.h5")
+def _(p):
+    with h5py.File(p, "w") as f:
+        f["time"] = T[:, None]
+        f["signals"] = np.column_stack([FORCE, ACC / G])
+        f["signals"].attrs["names"] = np.array(["Force [N]", "Acc [g]"], dtype=h5py.string_dtype())
+
+
 if __name__ == "__main__":
     try_import.main()
