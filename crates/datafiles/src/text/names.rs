@@ -27,8 +27,9 @@ const HEADERS: [&str; 12] = [
 /// The names that the file at `path` lists, one a line; a unit behind a comma, a semicolon or a tab is put in brackets. None for a
 /// file that holds numbers, or anything else.
 pub fn listed_names(path: &Path) -> Option<Vec<String>> {
-    let length = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?.len();
-    let bytes = std::fs::read(path).ok().filter(|_| length <= MOST)?;
+    // What is longer is left unread: measurements of gigabytes are asked as well.
+    std::fs::metadata(path).ok().filter(|file| file.is_file() && file.len() <= MOST)?;
+    let bytes = std::fs::read(path).ok()?;
     listed(&decode(&bytes).ok()?.0)
 }
 
