@@ -74,4 +74,16 @@ mod tests {
         assert_eq!(listed("Point,Sensor\n3,Acc\n"), None);
         assert_eq!(listed("Force\n"), None);
     }
+
+    /// A file that is nearly all a hole of a terabyte: reading it would take the memory of any machine.
+    #[test]
+    fn a_large_file_is_no_list_and_is_left_unread() -> std::io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("large.txt");
+        std::fs::write(&path, "Force\nAcc 1\n")?;
+        assert_eq!(listed_names(&path).map(|names| names.len()), Some(2));
+        std::fs::File::options().write(true).open(&path)?.set_len(1 << 40)?;
+        assert_eq!(listed_names(&path), None);
+        Ok(())
+    }
 }
