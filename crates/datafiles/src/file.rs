@@ -6,6 +6,7 @@ use crate::error::{Error, Fault, Read};
 use crate::gathered;
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
+use crate::shared_times;
 use crate::source::{MOST_VALUES, Source};
 use crate::units::{is_unit, split};
 use std::collections::HashMap;
@@ -52,7 +53,8 @@ fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree
         let (contents, source) = detect::open(path)?;
         let (contents, source) = parts::among_channels(contents, source)?;
         let (contents, source) = join(contents, source)?;
-        gathered::one_channel_each(contents, source)
+        let (contents, source) = gathered::one_channel_each(contents, source)?;
+        shared_times::beside(contents, source)
     });
     let (mut contents, source) = opened.map_err(|fault| fault.of(&name))?;
     units_of_names(&mut contents);

@@ -7,7 +7,6 @@
 use crate::axis::kind_of;
 use crate::contents::{Axis, Channel, Contents, Format, Kind, Set};
 use crate::error::Read;
-use crate::shared_times;
 use crate::source::Source;
 use crate::tree::{MOST_CHECKED, is_plain};
 use std::collections::HashSet;
@@ -46,8 +45,7 @@ pub(crate) fn one_channel_each(mut contents: Contents, source: Box<dyn Source>) 
             gather(&mut contents.sets, &mut places, &own, (parent, names));
         }
     }
-    let source: Box<dyn Source> = Box::new(Gathered { below: source, places });
-    shared_times::beside(contents, source)
+    Ok((contents, Box::new(Gathered { below: source, places })))
 }
 
 /// Set and channel in the file below.

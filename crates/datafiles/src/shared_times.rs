@@ -1,7 +1,7 @@
 //! Times that lie in a part of their own, beside the channels that they are of: `X` and `Y` of a recording of dSPACE.
 
 use crate::axis::{ascending, even_step, kind_of};
-use crate::contents::{Axis, Channel, Contents, Kind, Set};
+use crate::contents::{Axis, Channel, Contents, Format, Kind, Set};
 use crate::error::Read;
 use crate::gathered::parent;
 use crate::source::Source;
@@ -11,6 +11,10 @@ use uff::Values;
 /// The contents in which channels without times have those of a set beside theirs that is nothing but times, as long as they are
 /// and the only one.
 pub(crate) fn beside(mut contents: Contents, source: Box<dyn Source>) -> Read<(Contents, Box<dyn Source>)> {
+    let holds_groups = matches!(contents.format, Format::Mat | Format::Hdf5 | Format::Tdms);
+    if !holds_groups || contents.sets.len() < 2 {
+        return Ok((contents, source));
+    }
     let mut times = vec![None; contents.sets.len()];
     for s in 0..contents.sets.len() {
         let set = &contents.sets[s];

@@ -1,8 +1,7 @@
 //! Names, units and the sampling rate out of the lines above a block of numbers.
 
-use super::cell::number;
-use super::header_line::{HeaderLine, uncommented};
-use super::header_units::COMMENT_WORDS;
+use super::header_line::{COMMENT_WORDS, HeaderLine, label, uncommented};
+use super::number::number;
 use super::sampling::{step, step_below};
 use crate::axis::kind_of;
 use crate::parts::words::is_bare_part;
@@ -285,10 +284,6 @@ fn units_row(cells: &[String]) -> bool {
     !filled.is_empty()
         && 2 * units > filled.len()
         && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
-}
-
-pub(super) fn label(cell: &str) -> String {
-    uncommented(cell).trim_end_matches([':', '=']).trim().to_lowercase()
 }
 
 impl Header {

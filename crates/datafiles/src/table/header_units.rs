@@ -1,14 +1,10 @@
 //! Comments on channels below their names; units that stand within names, or once for all functions.
 
-use super::header::{Header, label};
-use super::header_line::HeaderLine;
+use super::header::Header;
+use super::header_line::{COMMENT_WORDS, HeaderLine, label};
 use crate::axis::unit_of_time;
 use crate::parts::unit_of_part;
 use crate::units::{is_unit, suffix};
-
-/// Words in front of what the channels are for, below their names.
-pub(super) const COMMENT_WORDS: [&str; 6] =
-    ["comment", "comments", "kommentar", "description", "beschreibung", "remark"];
 
 impl Header {
     /// Comments in the row below the names are put behind these: `CH1-1` is `CH1-1 Force`.

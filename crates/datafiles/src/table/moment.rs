@@ -1,6 +1,6 @@
 //! Times of day, dates and spans of time as tables have them.
 
-use super::cell::number;
+use super::number::number;
 
 /// Seconds of `12:34:56.789`, `34:56.789` with or without a date in front; the date counts in days from 1970.
 pub(crate) fn clock(text: &str) -> Option<f64> {

@@ -1,8 +1,7 @@
 //! The sampling rate out of the lines above a block of numbers.
 
-use super::cell::number;
-use super::header::label;
-use super::header_line::{HeaderLine, uncommented};
+use super::header_line::{HeaderLine, label, uncommented};
+use super::number::number;
 use crate::tree::{Sampling, sampling};
 
 /// The time between samples out of a line such as `Sampling rate: 2048 Hz` or `dt [s];0.001`.

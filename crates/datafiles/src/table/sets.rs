@@ -1,8 +1,8 @@
 //! From blocks of numbers to sets: which column is the abscissa, how many values each has.
 
-use super::blocks::{Block, Numbers};
+use super::block::{Block, Numbers};
 use super::clock::{join_date, join_fractions, pass_midnight};
-use super::{cell, header, indices, listed, wrapped};
+use super::{header, indices, listed, number, wrapped};
 use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
 use crate::contents::{Axis, Channel, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
@@ -98,7 +98,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
         }
     }
     for (i, numbers) in block.columns.into_iter().enumerate() {
-        if block.texts.contains(&i) || numbers.re.is_empty() && cell::number(&header.names[i], false).is_some() {
+        if block.texts.contains(&i) || numbers.re.is_empty() && number::number(&header.names[i], false).is_some() {
             let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
             set.notes.extend(block.texts.contains(&i).then(|| format!("\"{name}\" holds texts: it is no channel")));
             continue;

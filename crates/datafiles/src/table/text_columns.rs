@@ -7,9 +7,10 @@
 //! 0.001,ok,1.31                   ,,,-0.498,0.15
 //! ```
 
-use super::blocks::{Block, Numbers};
-use super::cell::{Cell, number};
+use super::block::{Block, Numbers};
+use super::cell::Cell;
 use super::header_line::HeaderLine;
+use super::number::number;
 
 /// Fewest rows of a table with a column of texts.
 pub(crate) const FEWEST: usize = 4;

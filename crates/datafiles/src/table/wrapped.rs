@@ -6,9 +6,9 @@
 //!   .1234E-03  .1240E-03  .1251E-03  .1263E-03  .1270E-03
 //! ```
 
-use super::blocks::{Block, Numbers};
-use super::cell::number;
+use super::block::{Block, Numbers};
 use super::header_line::HeaderLine;
+use super::number::number;
 
 /// Words for the number of samples.
 const COUNTS: [&str; 8] =

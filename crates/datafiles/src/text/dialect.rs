@@ -1,6 +1,6 @@
 //! Which separator and which decimal sign a text table uses: the pair under which most lines are rows of numbers.
 
-use crate::table::cell::number;
+use crate::table::number::number;
 use crate::table::{Cell, FEWEST, texts_of};
 
 /// Lines that are looked at, from the start and from the middle.

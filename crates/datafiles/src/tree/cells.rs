@@ -13,8 +13,30 @@ use crate::units::is_unit;
 /// Most texts that belong to one array.
 const MOST_TEXTS: usize = 4;
 
+/// Most single numbers of a cell array that stand among its texts as words; where there are more they are measured.
+const MOST_NUMBERS: usize = 256;
+
+/// What a cell array holds: texts are a list of names, also with single numbers among them, as in a table of sensors.
+pub(crate) fn of_cell(entries: Vec<Entry>) -> Node {
+    let word = |entry: &Entry| match &entry.node {
+        Node::Text(texts) => Some(texts.join(" ")),
+        Node::Array(array) => array.scalar().map(|value| value.to_string()),
+        Node::Group(_) | Node::Skipped(_) => None,
+    };
+    let words: Option<Vec<String>> = entries.iter().map(word).collect();
+    let texts = entries.iter().filter(|entry| matches!(entry.node, Node::Text(_))).count();
+    match words {
+        Some(words) if texts > 0 && words.len() - texts <= MOST_NUMBERS => Node::Text(words),
+        Some(words) if texts > 0 => Node::Skipped(format!(
+            "its {} numbers stand one by one in a cell with texts; save them as an array (cell2mat of the cells with numbers)",
+            words.len() - texts
+        )),
+        _ => Node::Group(named(entries)),
+    }
+}
+
 /// The cells, or the arrays among them under their names and with their units, where every array has as many texts.
-pub(super) fn named(entries: Vec<Entry>) -> Vec<Entry> {
+fn named(entries: Vec<Entry>) -> Vec<Entry> {
     let arrays = entries.iter().filter(|entry| array(entry).is_some()).count();
     let texts = entries.iter().filter(|entry| text(entry).is_some()).count();
     let each = texts.checked_div(arrays).unwrap_or(0);
@@ -83,5 +105,21 @@ mod tests {
         assert_eq!(told(by_columns), ["Force Some(\"N\")", "Acc Some(\"g\")"]);
         assert_eq!(told(by_rows), ["Force Some(\"N\")", "Acc Some(\"g\")"]);
         assert_eq!(told(vec![text("Force"), array(0), array(1)]), ["{} None", "{} None", "{} None"]);
+    }
+
+    #[test]
+    fn cells_of_texts_and_numbers_are_lists_of_words() {
+        let number = |value: f64| {
+            let shape = Shape::new([1, 1], true);
+            Entry::new("", Node::Array(Array { id: 0, shape, complex: false, peek: vec![[value, 0.0]] }))
+        };
+        let text = |word: &str| Entry::new("", Node::Text(vec![word.to_owned()]));
+        let mixed = of_cell(vec![text("acc"), number(12.0), text("+Z"), number(0.5)]);
+        assert!(matches!(&mixed, Node::Text(words) if words[..] == ["acc", "12", "+Z", "0.5"]), "{mixed:?}");
+        assert!(matches!(of_cell(vec![number(1.0), number(2.0)]), Node::Group(_)));
+        assert!(matches!(of_cell(Vec::new()), Node::Group(_)));
+        let signal = [vec![text("t")], (0..300).map(|i| number(f64::from(i))).collect()].concat();
+        let said = of_cell(signal);
+        assert!(matches!(&said, Node::Skipped(why) if why.contains("300 numbers")), "{said:?}");
     }
 }
