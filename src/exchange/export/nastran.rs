@@ -78,7 +78,7 @@ fn bush(id: usize, c: f64, (grid, component): Component) -> String {
     let of = |range: std::ops::RangeInclusive<u8>| range.map(coefficient).collect::<String>();
     let system = format!("{:<8}{id:>16}{id:>16}{grid:>16}\n{:<56}{:>16}\n", "CBUSH*", "*", 0);
     let [first, second] = [of(1..=2), of(3..=6)];
-    system + &format!("{:<8}{id:>16}{:<16}{}\n{:<8}{}\n", "PBUSH*", "B", first.trim_end(), "*", second.trim_end())
+    system + &format!("{:<8}{id:>16}{:>16}{}\n{:<8}{}\n", "PBUSH*", "B", first.trim_end(), "*", second.trim_end())
 }
 
 fn heading(identified: &Identified, own: &OwnDirections<'_>) -> String {

@@ -161,6 +161,7 @@ impl Request {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     use super::*;
 
     /// What lies beside measurements in the folders of laboratories is passed over, measurements are not.

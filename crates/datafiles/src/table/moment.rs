@@ -139,8 +139,8 @@ fn named_month(text: &str) -> Option<[u32; 3]> {
     let parts: Vec<&str> = text.split(['-', '/', '.', ' ', ',']).filter(|part| !part.is_empty()).collect();
     let month = |word: &str| {
         let word = word.to_lowercase();
-        let is = |names: &&[&str]| word.len() < 12 && names.iter().any(|name| word.starts_with(name));
-        MONTHS.iter().position(|names| is(&names)).map(|at| at as u32 + 1)
+        let is = |names: &[&str]| word.len() < 12 && names.iter().any(|name| word.starts_with(name));
+        MONTHS.iter().position(|names| is(names)).map(|at| at as u32 + 1)
     };
     let [a, b, c] = parts[..] else { return None };
     let (day, month) = match digits(a) {

@@ -100,7 +100,7 @@ fn further<'a>(line: &str, behind: impl Iterator<Item = (usize, &'a str)>) -> us
     let mut quotes = line.matches('"').count();
     let closed = behind.take(MOST_LINES).position(|(_, line)| {
         quotes += line.matches('"').count();
-        quotes % 2 == 0
+        quotes.is_multiple_of(2)
     });
     closed.map_or(0, |at| at + 1)
 }

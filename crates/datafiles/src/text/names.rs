@@ -62,6 +62,7 @@ fn name(line: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     use super::*;
 
     #[test]

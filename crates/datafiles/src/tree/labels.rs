@@ -87,14 +87,14 @@ impl Labels {
     pub(super) fn items_of(&self, array: &str) -> Option<&Vec<String>> {
         let of_pandas = || array.strip_suffix("_values").map(|stem| format!("{stem}_items"));
         let named = |list: &str| {
-            rest(list, array).is_some_and(|rest| names::is_names_word(rest)) || of_pandas().is_some_and(|of| of == list)
+            rest(list, array).is_some_and(names::is_names_word) || of_pandas().is_some_and(|of| of == list)
         };
         self.items.iter().find(|(list, _)| named(list)).map(|(_, texts)| texts)
     }
 
     /// Units of the columns of one array, by the name of the list: `xUnits` beside `x`.
     pub(super) fn item_units_of(&self, array: &str) -> Option<&Vec<String>> {
-        let named = |list: &str| rest(list, array).is_some_and(|rest| names::is_unit_word(rest));
+        let named = |list: &str| rest(list, array).is_some_and(names::is_unit_word);
         self.items.iter().find(|(list, _)| named(list)).map(|(_, texts)| texts)
     }
 
