@@ -8,6 +8,7 @@
    into a project and `dashpot simulate` must give the harmonics that the same matrices in Matrix Market give.
 2. Binary OUTPUT4 of both byte orders is made here from its description; pyNastran must read it as it was meant, and then we.
 3. `dashpot export --to nastran` is read by pyNastran: CDAMP2, and the DMIG equals the matrix of `--to json`.
+4. At a grid point that moves askew (CD) a dashpot is a CBUSH in the basic system, and the DMIG turned by pyNastran's axes is it.
 """
 import json
 import struct
@@ -144,6 +145,7 @@ def main():
                         print(f"-    {title}: pyNastran does not read it ({type(error).__name__})")
                     good.append(same(f"{title}: read by us", simulated(folder, structure), expected))
         good.append(exported(folder))
+        good.append(turned(folder))
     sys.exit(0 if all(good) else 1)
 
 
@@ -175,6 +177,37 @@ def exported(folder):
         for j, (grid_j, _) in rows.items():
             ours[grid_i - 11 if grid_i > 10 else grid_i - 1, grid_j - 11 if grid_j > 10 else grid_j - 1] = matrix[i, j]
     return same("DMIG of ours, read by pyNastran", ours, viscous, 1e-9)
+
+
+def turned(folder):
+    """Our dashpot in z at grid point 12, whose axes lie askew in space."""
+    deck = "CORD2R,5,,0.,0.,0.,1.,0.3,-0.2\n,0.1,1.,1.\nGRID,11,,0.,0.,0.\nGRID,12,,1.,0.,0.,5\n"
+    for name, own in (("KAAX", "3.+4"), ("MAAX", "1.")):
+        deck += f"DMIG,{name},0,6,2,0\nDMIG,{name},11,3,,11,3,{own}\n" + "".join(f"DMIG,{name},12,{c},,12,{c},{own}\n" for c in (1, 2, 3))
+    (folder / "turned.bdf").write_text(deck)
+    text = project('mass = "turned.bdf"\nstiffness = "turned.bdf"').split("[[source]]")[0]
+    text += '[[source]]\nlaw = "viscous"\ndofs = ["12z"]\nstate = "forced"\n'
+    truth = text.replace('state = "forced"', 'state = "known"\nc = 2.0')
+    for name, head, force in (("t.toml", truth, 'force_dof = "12z"\nforce_n = 2.0\n'), ("p.toml", text, "")):
+        (folder / name).write_text(head + "".join(f'[[run]]\nfile = "{i}.csv"\nfrequency = {f}\n{force}' for i, f in enumerate([20.0, 27.0, 30.0])))
+    run = dict(cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([DASHPOT, "simulate", "t.toml", "--out", "."], **run)
+    subprocess.run([DASHPOT, "export", "p.toml", "--to", "nastran", "--out", "turned-c.bdf"], **run)
+    model = BDF(log=None, debug=None)
+    model.read_bdf(str(folder / "turned-c.bdf"), punch=True, xref=False)
+    (bush,), (properties,) = model.elements.values(), model.properties.values()
+    good = bush.type == "CBUSH" and bush.cid == 0 and list(bush.node_ids)[0] == 12 and abs(properties.Bi[2] - 2.0) < 1e-6
+    print(f"{'ok  ' if good else 'BAD '} CBUSH of ours as pyNastran reads it: {bush.type} at {list(bush.node_ids)}, CID {bush.cid}, B {properties.Bi}")
+    both = BDF(log=None, debug=None)
+    (folder / "both.bdf").write_text(deck + (folder / "turned-c-dmig.bdf").read_text())
+    both.read_bdf(str(folder / "both.bdf"), punch=True, xref=True)
+    axes = both.coords[5].beta()
+    matrix, rows, columns = both.dmigs["CDAMP"].get_matrix(is_sparse=False)
+    own = np.zeros((3, 3))
+    for i, (_, a) in rows.items():
+        for j, (_, b) in columns.items():
+            own[a - 1, b - 1] = matrix[i, j]
+    return same("DMIG of ours in the axes of pyNastran", axes.T @ own @ axes, np.diag([0.0, 0.0, 2.0]), 1e-6) and good
 
 
 def find(document, key):

@@ -211,7 +211,7 @@ def _(p):
 # HDF5.
 
 
-@case("pandas-fixed.h5", (), LINE)
+@case("pandas-fixed.h5")
 def _(p):
     with h5py.File(p, "w") as f:
         g = f.create_group("df")
@@ -422,7 +422,7 @@ def _(p):
     text(p, ["Time (s),Ch1 Force (lbf),Ch2 Accel (G)"] + table([T, FORCE / 4.4482216152605, ACC / G], ","))
 
 
-@case("tektronix.csv", (), LINE)
+@case("tektronix.csv", (), "opens")
 def _(p):
     left = ["Record Length,7.000000e+02,", "Sample Interval,1.000000e-03,", "Trigger Point,0.000000e+00,", "Source,CH1,", "Vertical Units,V,", "Horizontal Units,s,"]
     text(p, [(left[i] if i < len(left) else ",,") + f",{t:.9f},{a:.6e}," for i, (t, a) in enumerate(zip(T, ACC))], end="\r\n")

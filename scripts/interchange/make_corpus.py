@@ -422,10 +422,41 @@ def clocks_and_parts():
     text("mescope.txt", "\n".join(lines) + "\n", "csv", [("", "1 2Z:8Z", "g/lbf", 0.5, FRF), ("", "2 4Z:8Z", "g/lbf", 0.5, ODD + 1j * ACC)])
 
 
+def rarer_programs():
+    """Times in a part of their own, lists of names beside arrays, cells of names and arrays, frames of pandas, blocks of one channel each."""
+    record = lambda kind, rows: np.array([rows], dtype=[(name, object) for name in kind])  # noqa: E731
+    x = record(["Name", "Unit", "Data"], [("Time", "s", TIME[None, :])])
+    y = record(["Name", "Unit", "Data"], [("Force", "N", FORCE[None, :]), ("Acc 1", "g", ODD[None, :])])
+    scipy.io.savemat(OUT / "times-apart.mat", {"rec": {"X": x, "Y": y}})
+    expect("times-apart.mat", "mat", [("rec/Y", "Force", "N", STEP, FORCE), ("rec/Y", "Acc 1", "g", STEP, ODD)])
+    cells = np.empty((3, 2), dtype=object)
+    for k, column in enumerate([("Force", "N", FORCE[:, None]), ("Acc", "g", ODD[:, None])]):
+        for row, value in enumerate(column):
+            cells[row, k] = value
+    scipy.io.savemat(OUT / "named-cells.mat", {"fs": 1 / STEP, "held": cells})
+    expect("named-cells.mat", "mat", [("held", "Force", "N", STEP, FORCE), ("held", "Acc", "g", STEP, ODD)])
+    scipy.io.savemat(OUT / "list-of-one.mat", {"dt": STEP, "x": np.vstack([FORCE, ODD]), "xLabels": np.array(["Force (N)", "Acc (g)"], dtype=object)})
+    expect("list-of-one.mat", "mat", [("", "Force (N)", "N", STEP, FORCE), ("", "Acc (g)", "g", STEP, ODD)])
+    with h5py.File(OUT / "frame.h5", "w") as file:
+        group = file.create_group("df")
+        group["axis1"], group["block0_items"] = TIME, np.array([b"force [N]", b"acc [g]"])
+        group["block0_values"] = np.column_stack([FORCE, ODD])
+    expect("frame.h5", "hdf5", [("df", "axis1", "", None, TIME), ("df", "force [N]", "N", STEP, FORCE), ("df", "acc [g]", "g", STEP, ODD)])
+    with h5py.File(OUT / "lists-above.h5", "w") as file:
+        file.attrs["fs"], file.attrs["channel_names"], file.attrs["channel_units"] = 1 / STEP, ["force", "acc"], ["N", "g"]
+        file.create_group("run 1")["samples"] = np.column_stack([FORCE, ODD])
+    expect("lists-above.h5", "hdf5", [("run 1", "force", "N", STEP, FORCE), ("run 1", "acc", "g", STEP, ODD)])
+    blocks = [["Channel name\t" + name, "X unit\ts", "Y unit\t" + unit, "s\t" + unit] + [f"{float(t)!r}\t{float(v)!r}" for t, v in zip(TIME, values)] + [""]
+              for name, unit, values in [("Force:1:+Z", "N", FORCE), ("Beam:1:+Z", "g", ODD)]]
+    text("blocks.txt", "\n".join(blocks[0] + blocks[1]), "csv", [("", "Force:1:+Z", "N", STEP, FORCE), ("", "Beam:1:+Z", "g", STEP, ODD)])
+    rows = [f"{float(t)!r} sec,ok,{float(a)!r},{float(b)!r}" for t, a, b in zip(TIME, FORCE, ODD)]
+    text("spans-and-states.csv", "\n".join(['"Time","State","Force', '[N]","Acc', '[g]"'] + rows) + "\n", "csv", [("", "Force", "N", STEP, FORCE), ("", "Acc", "g", STEP, ODD)])
+
+
 import scipy.io.wavfile  # noqa: E402
 import scipy.sparse  # noqa: E402
 
-for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described, one_channel_each, clocks_and_parts]:
+for make in [tables, lvms, sheets, mats, hdf5s, tdms, wavs, numpys, uffs, times_and_names, described, one_channel_each, clocks_and_parts, rarer_programs]:
     make()
 (OUT / "expected.json").write_text(json.dumps(EXPECTED, indent=0) + "\n")
 print(f"{len(EXPECTED)} files in {OUT}")

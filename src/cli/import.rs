@@ -4,7 +4,7 @@ use super::arguments_import::Import;
 use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::frf::Form;
-use crate::exchange::importing::files::listed;
+use crate::exchange::importing::files::{listed, may_be_measurement};
 use crate::exchange::importing::{Kept, Request, import, proposal};
 use crate::exchange::project::file::Label;
 use crate::exchange::project::frf::FrfTable;
@@ -29,17 +29,21 @@ pub(super) fn run(arguments: &Import) -> anyhow::Result<String> {
 
 /// What the arguments and their template ask for.
 fn request(arguments: &Import) -> anyhow::Result<Request> {
-    let files = listed(&arguments.files)?;
-    ensure!(!files.is_empty(), "{}: the folder has no file", arguments.files[0].display());
+    let found = Request::of(measurements(&arguments.files)?);
+    ensure!(
+        !found.files.is_empty(),
+        "{}: is a finite-element model; give the measurements together with it",
+        arguments.files[0].display()
+    );
     let mut request = Request {
-        files,
+        files: found.files,
         names: Vec::new(),
         channels: None,
         kept: None,
         sampling_hz: arguments.sampling_hz,
-        mass: arguments.mass.clone(),
-        stiffness: arguments.stiffness.clone(),
-        nodes: arguments.nodes.clone(),
+        mass: arguments.mass.clone().or(found.mass),
+        stiffness: arguments.stiffness.clone().or(found.stiffness),
+        nodes: arguments.nodes.clone().or(found.nodes),
         form: arguments.form.as_deref().and_then(Form::from_word),
         step_hz: arguments.step_hz,
         columns: arguments.columns.as_deref().and_then(Pairing::from_word),
@@ -61,6 +65,19 @@ fn request(arguments: &Import) -> anyhow::Result<Request> {
         (None, Err(error)) => return Err(error.into()),
     }
     Ok(request)
+}
+
+/// The files, and those of folders that may be measurements or part of a model; what is passed over is said.
+fn measurements(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
+    let named = |file: &PathBuf| paths.contains(file) || may_be_measurement(file);
+    let (files, others): (Vec<_>, Vec<_>) = listed(paths)?.into_iter().partition(named);
+    ensure!(!files.is_empty(), "{}: the folder has no file of measurements", paths[0].display());
+    if !others.is_empty() {
+        let names: Vec<_> =
+            others.iter().filter_map(|file| file.file_name()).map(|name| name.to_string_lossy()).collect();
+        eprintln!("passed over, no measurements: {}", names.join(", "));
+    }
+    Ok(files)
 }
 
 /// What a `[[frf]]` of a template says where the arguments do not.

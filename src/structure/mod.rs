@@ -34,4 +34,4 @@ pub use lumped_mass::LumpedMass;
 pub use matrices::{Element, SystemMatrices};
 pub use mode_damping::DampingOfMode;
 pub use share::HeldDof;
-pub use system::{Origin, Structure, StructureKind};
+pub use system::{Origin, Structure, StructureKind, TurnedNode};

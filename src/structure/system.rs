@@ -35,13 +35,22 @@ pub struct Structure {
     pub(crate) origin: Origin,
 }
 
+/// A node whose displacements the files of a model state in directions of their own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnedNode {
+    /// Label of the node.
+    pub label: String,
+    /// Its own directions 1, 2 and 3 as unit vectors in x, y and z.
+    pub axes: [[f64; 3]; 3],
+}
+
 /// How an imported structure came about, beyond its matrices.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Origin {
     /// What the files hold that is not understood but could matter, a sentence each.
     pub notes: Vec<String>,
-    /// Labels of the nodes whose displacements the files state in coordinate systems of their own: here they are along x, y and z.
-    pub turned: Vec<String>,
+    /// Nodes whose displacements the files state in directions of their own: here they are along x, y and z.
+    pub turned: Vec<TurnedNode>,
     /// How a larger model was reduced to the degrees of freedom that are here.
     pub reduction: Option<Reduction>,
     /// Mass of a component that moves with its force cell, kg.
@@ -106,7 +115,7 @@ impl Structure {
     /// Notes how the structure came about, and which of its nodes were turned; lumped masses ride on the base like all others.
     pub(crate) fn set_origin(
         &mut self,
-        (notes, turned): (Vec<String>, Vec<String>),
+        (notes, turned): (Vec<String>, Vec<TurnedNode>),
         mut reduction: Option<Reduction>,
         lumped: &[LumpedMass],
     ) {

@@ -119,6 +119,45 @@ fn grid_points_that_move_in_systems_of_their_own_are_turned() {
     );
 }
 
+/// What the export writes for a grid point that moves askew to x, y and z is read back with the deck as the dashpot that it is.
+#[test]
+fn damping_is_exported_in_the_directions_of_the_grid_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let half = 0.5_f64.sqrt();
+    // Directions 1, 2 and 3 of grid point 12: its third is x, its first between y and z.
+    let along_z = [half, half, 0.0];
+    let mut deck = "CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,1.\nGRID,11,,0.,0.,0.\nGRID,12,,1.,0.,0.,5\n".to_owned();
+    for (name, own, coupling) in [("KAAX", 3e4, -1e4), ("MAAX", 1.0, 0.0)] {
+        let _ = writeln!(deck, "DMIG,{name},0,6,2,0\nDMIG,{name},11,3,,11,3,{own:.1}");
+        for (c, z) in (1..).zip(along_z) {
+            let _ = writeln!(deck, "DMIG,{name},12,{c},,12,{c},{own:.1}");
+            if coupling * z != 0.0 {
+                let _ = writeln!(deck, "DMIG*,{name},11,3,,+\n*+,12,{c},{:.12E}", coupling * z);
+            }
+        }
+    }
+    fs::write(at.join("model.bdf"), &deck).unwrap();
+    let text = project("mass = \"model.bdf\"\nstiffness = \"model.bdf\"").replace("13z", "11z");
+    fs::write(at.join("p.toml"), &text).unwrap();
+    said(&["simulate", "p.toml", "--out", "."], at);
+    let asked = text.split("force_dof").next().unwrap().replace("state = \"known\"\nc = 2.0", "state = \"forced\"");
+    fs::write(at.join("m.toml"), asked).unwrap();
+    said(&["export", "m.toml", "--to", "nastran", "--out", "c.bdf"], at);
+    let cards = fs::read_to_string(at.join("c.bdf")).unwrap();
+    assert!(cards.contains("CBUSH*") && !cards.contains("CDAMP2*"), "{cards}");
+    let both = deck + &fs::read_to_string(at.join("c-dmig.bdf")).unwrap();
+    let bulk = dashpot_fe_files::nastran::read(&both, "both.bdf").unwrap();
+    let damping = bulk.matrices.iter().find(|matrix| matrix.name == "CDAMP").unwrap().clone();
+    assert_eq!(damping.dofs.as_ref().map(|dofs| dofs.iter().all(|dof| dof.node == 12)), Some(true));
+    let basic = damping.in_basic("both.bdf", &bulk.geometry.turned).unwrap();
+    let of = |i: usize| basic.dofs.as_ref().unwrap()[i];
+    for &(i, j, value) in &basic.entries {
+        let expected = if i == j && of(i).component == 3 { 2.0 } else { 0.0 };
+        assert!((value - expected).abs() < 1e-5, "{:?} {:?} {value}", of(i), of(j));
+    }
+}
+
 #[test]
 fn errors_name_file_line_and_cure() {
     let folder = tempfile::tempdir().unwrap();

@@ -52,13 +52,40 @@ pub(crate) fn kind_of(name: &str, unit: &str) -> Option<Kind> {
     {
         return Some(Kind::Spectrum);
     }
-    let timed = ["time", "zeit", "temps", "tiempo", "tempo", "timestamp", "elapsed", "uhrzeit"];
-    if timed.iter().any(|start| word.starts_with(start)) || name == "t" || name == "x_value" || name == "t_s" {
+    let is_time = |word: &str| TIMES.iter().any(|start| word.starts_with(start));
+    if is_time(word) || name == "t" || name == "x_value" || name == "t_s" {
         return Some(Kind::Time);
     }
-    let second =
-        matches!(unit.as_str(), "s" | "sec" | "secs" | "second" | "seconds" | "ms" | "us" | "µs" | "ns" | "min");
-    (second && (name.is_empty() || word == "x" || word == "t")).then_some(Kind::Time)
+    if unit_of_time(&name).is_some() {
+        return Some(Kind::Time);
+    }
+    // `Total Time [s]`, `Ch 1 Time [Sec]`: the unit says that the word further behind is meant.
+    let timed = || name.split(|c: char| !c.is_alphabetic()).any(is_time);
+    (is_second(&unit) && (name.is_empty() || word == "x" || word == "t" || timed())).then_some(Kind::Time)
+}
+
+/// Beginnings of words for times.
+const TIMES: [&str; 8] = ["time", "zeit", "temps", "tiempo", "tempo", "timestamp", "elapsed", "uhrzeit"];
+
+fn is_second(unit: &str) -> bool {
+    matches!(unit, "s" | "sec" | "secs" | "second" | "seconds" | "ms" | "us" | "µs" | "ns" | "min")
+}
+
+/// The unit of times that a name is: `millis` of a microcontroller, `seconds_elapsed`.
+pub(crate) fn unit_of_time(name: &str) -> Option<&'static str> {
+    let name = name.trim().to_lowercase();
+    let parts: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty()).collect();
+    let [first, rest @ ..] = &parts[..] else { return None };
+    if !rest.iter().all(|part| matches!(*part, "elapsed" | "since" | "start")) {
+        return None;
+    }
+    match *first {
+        "seconds" | "secs" | "sec" => Some("s"),
+        "millis" | "milliseconds" | "millisec" | "msec" | "msecs" => Some("ms"),
+        "micros" | "microseconds" | "microsec" | "usec" | "usecs" => Some("us"),
+        "nanos" | "nanoseconds" | "nsec" => Some("ns"),
+        _ => None,
+    }
 }
 
 #[cfg(test)]
@@ -90,5 +117,10 @@ mod tests {
         assert_eq!(kind_of("force", "N"), None);
         assert_eq!(kind_of("X-axis", "Hz"), Some(Kind::Spectrum));
         assert_eq!(kind_of("period", "s"), None);
+        assert_eq!(kind_of("Total Time", "s"), Some(Kind::Time));
+        assert_eq!(kind_of("Ch 1 Time", "Sec"), Some(Kind::Time));
+        assert_eq!((kind_of("Ch 1 Time", "N"), kind_of("Overtime", "s")), (None, None));
+        assert_eq!((kind_of("seconds_elapsed", ""), unit_of_time("millis")), (Some(Kind::Time), Some("ms")));
+        assert_eq!((kind_of("second acc", "g"), kind_of("sec. acc", "g")), (None, None));
     }
 }

@@ -1,12 +1,14 @@
 //! Opening a file and reading its channels.
 
-use crate::contents::{Axis, Contents};
+use crate::contents::{Axis, Contents, Kind, Set};
 use crate::detect;
 use crate::error::{Error, Fault, Read};
 use crate::gathered;
 use crate::guard::guarded;
 use crate::parts::{self, Pairing};
+use crate::shared_times;
 use crate::source::{MOST_VALUES, Source};
+use crate::units::{is_unit, split};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use uff::Values;
@@ -51,11 +53,26 @@ fn opened(path: &Path, join: impl FnOnce(Contents, Box<dyn Source>) -> Read<Tree
         let (contents, source) = detect::open(path)?;
         let (contents, source) = parts::among_channels(contents, source)?;
         let (contents, source) = join(contents, source)?;
-        gathered::one_channel_each(contents, source)
+        let (contents, source) = gathered::one_channel_each(contents, source)?;
+        shared_times::beside(contents, source)
     });
     let (mut contents, source) = opened.map_err(|fault| fault.of(&name))?;
+    units_of_names(&mut contents);
     tell_apart(&mut contents);
     Ok(DataFile { path: path.to_owned(), contents, source })
+}
+
+/// Channels without a unit have that which stands in brackets at the end of their name: `Acc 1 (g)`. The name stays.
+fn units_of_names(contents: &mut Contents) {
+    let measured = |set: &&mut Set| !matches!(set.kind, Kind::Matrix | Kind::Geometry | Kind::Shape);
+    for channel in contents.sets.iter_mut().filter(measured).flat_map(|set| &mut set.channels) {
+        let bracketed = channel.name.trim_end().ends_with([']', ')']);
+        if let (true, (_, unit)) = (channel.unit.is_empty() && bracketed, split(&channel.name))
+            && is_unit(&unit)
+        {
+            channel.unit = unit;
+        }
+    }
 }
 
 /// Channels of one set that have the same name are numbered from the second on: `Acc`, `Acc (2)`.

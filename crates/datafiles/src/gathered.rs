@@ -1,5 +1,5 @@
 //! Sets of one channel each that are one record: arrays of structs in MATLAB (`rec(1).name`, `rec(1).data`, ...), files with a
-//! group a channel. Their channels become one set, called as what they lie in.
+//! group a channel, texts with a block a channel. Their channels become one set, called as what they lie in.
 //!
 //! Groups of one channel may also be runs of one sensor. They are channels of one record only where they share their times and
 //! where something tells them apart as channels: names that the file gives them, units, or words such as `Channel`.
@@ -19,7 +19,9 @@ const SET: &str = "set";
 
 /// The contents with sets of one channel each gathered, and the source of them.
 pub(crate) fn one_channel_each(mut contents: Contents, source: Box<dyn Source>) -> Read<(Contents, Box<dyn Source>)> {
-    if !matches!(contents.format, Format::Mat | Format::Hdf5 | Format::Tdms) {
+    let gathers =
+        matches!(contents.format, Format::Mat | Format::Hdf5 | Format::Tdms | Format::Csv | Format::Txt | Format::Xlsx);
+    if !gathers || contents.sets.len() < 2 {
         return Ok((contents, source));
     }
     let whole = |s: usize, set: &Set| (0..set.channels.len()).map(|c| (s, c)).collect::<Vec<_>>();
@@ -73,9 +75,13 @@ impl Source for Gathered {
     }
 }
 
-/// What a set lies in. Groups of TDMS lie in the file, and their names may hold strokes.
-fn parent(format: Format, name: &str) -> &str {
-    if format == Format::Tdms { "" } else { name.rsplit_once('/').map_or("", |(above, _)| above) }
+/// What a set lies in. Groups of TDMS, blocks of a text and sheets lie in the file, and their names may hold strokes.
+pub(crate) fn parent(format: Format, name: &str) -> &str {
+    if matches!(format, Format::Tdms | Format::Csv | Format::Txt | Format::Xlsx) {
+        ""
+    } else {
+        name.rsplit_once('/').map_or("", |(above, _)| above)
+    }
 }
 
 /// Place of the only channel of a set that is no abscissa.

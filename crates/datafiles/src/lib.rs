@@ -34,6 +34,7 @@ mod mat;
 mod npy;
 mod npz;
 mod parts;
+mod shared_times;
 mod source;
 mod table;
 mod tdms;

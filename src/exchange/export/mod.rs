@@ -12,6 +12,7 @@ pub(crate) mod mat5;
 mod mtx;
 mod nastran;
 mod outcome;
+mod own_directions;
 mod write;
 
 pub use format::{ExportError, Format, Written};

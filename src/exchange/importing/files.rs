@@ -2,6 +2,7 @@
 
 use super::error::{ImportError, Result};
 use super::request::Request;
+use dashpot_datafiles::listed_names;
 use std::path::{Path, PathBuf};
 
 /// Deepest folders that are looked into.
@@ -34,6 +35,64 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: usize) -> Result<()> {
         .iter()
         .filter(|path| !hidden(path) && !path.is_symlink())
         .try_for_each(|path| collect(path, files, depth + 1))
+}
+
+/// Endings of files that lie among measurements and are none: pictures, documents, programs, what programs keep for themselves.
+const OTHERS: [&str; 32] = [
+    "toml",
+    "md",
+    "pdf",
+    "png",
+    "jpg",
+    "jpeg",
+    "gif",
+    "bmp",
+    "tif",
+    "tiff",
+    "svg",
+    "heic",
+    "mp4",
+    "mov",
+    "avi",
+    "doc",
+    "docx",
+    "ppt",
+    "pptx",
+    "rtf",
+    "json",
+    "ini",
+    "db",
+    "lnk",
+    "html",
+    "htm",
+    "m",
+    "py",
+    "vi",
+    "ipynb",
+    "tdms_index",
+    "log",
+];
+
+/// Whether a file of a folder may hold measurements: it is neither a project nor a picture nor notes, of texts those with a row
+/// of numbers, or with names of channels.
+pub fn may_be_measurement(file: &Path) -> bool {
+    let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
+    match end.as_deref() {
+        None => false,
+        Some("txt") => listed_names(file).is_some() || !is_prose(file),
+        Some(end) => !OTHERS.contains(&end),
+    }
+}
+
+/// Whether a text has no line that begins with a number; only the beginning of a long one is looked at.
+fn is_prose(file: &Path) -> bool {
+    use std::io::Read;
+    let mut beginning = Vec::new();
+    let read = std::fs::File::open(file).and_then(|file| file.take(1 << 16).read_to_end(&mut beginning));
+    let text: String = String::from_utf8_lossy(&beginning).replace('\0', "");
+    let is_number =
+        |line: &str| line.trim_start().starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
+    read.is_ok() && beginning.len() < 1 << 16 && !text.lines().any(is_number)
 }
 
 /// The part of a finite-element model that a file is, by its ending.
@@ -102,7 +161,25 @@ impl Request {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods, reason = "tests")]
     use super::*;
+
+    /// What lies beside measurements in the folders of laboratories is passed over, measurements are not.
+    #[test]
+    fn files_of_a_folder_that_are_no_measurements_are_told() -> std::io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let of = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).map(|()| may_be_measurement(&path))
+        };
+        assert!(of("run.TDMS", "TDSm")? && of("run.txt", "t F\n0.1 2\n")? && of("names.txt", "Force\nAcc 1\n")?);
+        assert!(
+            !of("notes.txt", "Sensor 3 is loose; ask again\n")?
+                && !of("run.tdms_index", "TDSh")?
+                && !of("rig.JPG", "")?
+        );
+        Ok(())
+    }
 
     #[test]
     fn a_model_among_the_files_is_told_from_measurements() {

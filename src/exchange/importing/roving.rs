@@ -36,13 +36,48 @@ fn differing(names: &[String]) -> Option<Vec<u64>> {
     }
     let column = |k: usize| split.iter().map(|(_, numbers)| numbers[k]).collect::<Vec<u64>>();
     let counts = |column: &Vec<u64>| column.windows(2).all(|pair| pair[1] == pair[0] + 1);
-    let mut differ: Vec<Vec<u64>> = (0..first.1.len()).map(column).collect();
+    let segments: Vec<&str> = first.0.split('#').collect();
+    let mut differ: Vec<Vec<u64>> = (0..first.1.len()).filter(|&k| !is_of_run(segments[k])).map(column).collect();
     differ.retain(|column| column.iter().any(|number| *number != column[0]));
     if differ.len() > 1 {
         differ.retain(|column| !counts(column));
     }
     let [one] = &differ[..] else { return None };
     Some(one.clone())
+}
+
+/// Words in front of numbers of runs and levels, which are no places.
+const OF_RUNS: [&str; 24] = [
+    "level",
+    "levels",
+    "lev",
+    "lvl",
+    "run",
+    "test",
+    "trial",
+    "take",
+    "rep",
+    "repeat",
+    "repetition",
+    "rec",
+    "record",
+    "meas",
+    "measurement",
+    "data",
+    "day",
+    "amp",
+    "amplitude",
+    "rms",
+    "stufe",
+    "pegel",
+    "messung",
+    "versuch",
+];
+
+/// Whether the number behind a text is that of a run or of a level.
+fn is_of_run(text: &str) -> bool {
+    let text = text.trim_end_matches(|c: char| !c.is_alphabetic()).to_lowercase();
+    OF_RUNS.contains(&text.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default())
 }
 
 /// A name with its numbers taken out, and these.
@@ -73,6 +108,8 @@ mod tests {
         for other in [&["hit 3", "tap 6"][..], &["hit 3"], &["hit 3", "hit 3"], &["4 3 1", "9 7 5"]] {
             assert_eq!(found(other), None, "{other:?}");
         }
+        assert_eq!((found(&["beam_level1", "beam_level2"]), found(&["Run 3", "Run 5"])), (None, None));
+        assert_eq!(found(&["Run 1 P4", "Run 2 P6"]), Some(vec![4, 6]));
         // Both columns differ and neither counts.
         assert_eq!(found(&["3 of 9", "8 of 2"]), None);
     }

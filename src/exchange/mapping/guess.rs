@@ -66,7 +66,18 @@ pub(super) fn symbol(name: &str) -> Option<Quantity> {
         'x' | 'd' => Quantity::Displacement,
         _ => return None,
     };
-    letters.all(|c| c.is_ascii_digit() || matches!(c, '_' | ' ' | '[' | ']')).then_some(quantity)
+    let rest = letters.as_str().strip_suffix(['x', 'y', 'z', 'X', 'Y', 'Z']).unwrap_or(letters.as_str());
+    rest.chars().all(|c| c.is_ascii_digit() || matches!(c, '_' | ' ' | '[' | ']')).then_some(quantity)
+}
+
+/// Whether a name is that of an acceleration in g as telephones have it: `gFx`.
+pub(super) fn in_g(name: &str) -> bool {
+    matches!(name.trim(), "gFx" | "gFy" | "gFz")
+}
+
+/// Whether the names are, among others, those of the three directions alone.
+pub(super) fn are_directions<'a>(names: impl Iterator<Item = &'a str> + Clone) -> bool {
+    ["x", "y", "z"].iter().all(|axis| names.clone().any(|name| name.trim().eq_ignore_ascii_case(axis)))
 }
 
 /// Force of an input, displacement of an output, by names as system identification has them: `u` and `y`, `u[2]`, `uval` and `yval`.
@@ -188,6 +199,12 @@ mod tests {
         let of = |name: &str| of_identification(name, &names);
         assert_eq!((of("uval"), of("yval[2]")), (Some(Quantity::Force), Some(Quantity::Displacement)));
         assert_eq!((of("u"), of("x")), (None, None));
+        assert_eq!((symbol("ax"), symbol("az2"), symbol("max")), (Some(Quantity::Acceleration), None, None));
+        assert!(
+            in_g("gFz")
+                && are_directions(["time", "z", "Y", "x"].into_iter())
+                && !are_directions(["x", "y"].into_iter())
+        );
         assert!(of_base("Shaker table [g]") && of_base("base_z") && !of_base("acc 7") && !of_base("baseline 1"));
         assert_eq!((direction_of("Table Z").as_deref(), direction_of("Table")), (Some("z"), None));
         assert!(angle("phi") && angle("Roll angle") && !angle("phase"));

@@ -4,8 +4,8 @@
 //! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
 use super::guess::{
-    angle, direction_of, is_sensor_unit, of_base, of_identification, place_beside, place_of, quantity_of_type, spoken,
-    symbol,
+    angle, are_directions, direction_of, in_g, is_sensor_unit, of_base, of_identification, place_beside, place_of,
+    quantity_of_type, spoken, symbol,
 };
 use super::table::ChannelTable;
 use super::units::LabUnit;
@@ -57,7 +57,8 @@ pub fn propose(contents: &Contents) -> Proposal {
     };
     let recorder = contents.format == Format::Wav;
     // Where another channel moves, `x` may be anything.
-    let moved = contents.sets.iter().flat_map(|set| &set.channels).any(moves);
+    let all = || contents.sets.iter().flat_map(|set| &set.channels);
+    let moved = all().any(moves) || are_directions(all().map(|channel| channel.name.as_str()));
     let recorded: Vec<&Set> = contents.sets.iter().filter(|set| matches!(set.kind, Kind::Time | Kind::Table)).collect();
     // Sets of one layout are runs of one mapping, told by the first of them.
     let alike = of_one_layout(&recorded);
@@ -78,6 +79,7 @@ pub fn propose(contents: &Contents) -> Proposal {
     }
     if let (true, Some(set)) = (drafts.is_empty(), alike.or_else(|| recorded.first().copied())) {
         drafts = inputs_and_outputs(set);
+        drafts.extend(directions(set));
         proposal.left.retain(|(name, _)| drafts.iter().all(|draft| draft.channel.name != *name));
     }
     let mut drafts = proposal.of_one_length(drafts);
@@ -96,10 +98,23 @@ fn inputs_and_outputs(set: &Set) -> Vec<Draft<'_>> {
     drafts.map(|(channel, quantity)| assumed_draft(channel, quantity)).collect()
 }
 
+/// The channels of a set that are called as the three directions, as telephones and single sensors have them.
+fn directions(set: &Set) -> Vec<Draft<'_>> {
+    if !are_directions(set.channels.iter().map(|channel| channel.name.as_str())) {
+        return Vec::new();
+    }
+    let own = |channel: &&Channel| matches!(channel.name.trim(), "x" | "y" | "z" | "X" | "Y" | "Z");
+    let bare = |channel: &&Channel| channel.unit.is_empty() && !channel.complex && channel.count > 0;
+    set.channels.iter().filter(own).filter(bare).map(|channel| assumed_draft(channel, Quantity::Acceleration)).collect()
+}
+
 /// A channel whose quantity is assumed by its name alone.
 fn assumed_draft(channel: &Channel, quantity: Quantity) -> Draft<'_> {
-    let what = if quantity == Quantity::Force { "force" } else { "displacement" };
-    let assumed = vec![format!("called as system identification calls inputs and outputs: a {what} is assumed")];
+    let assumed = vec![match quantity {
+        Quantity::Acceleration => "called as a direction alone: an acceleration is assumed".to_owned(),
+        Quantity::Force => "called as system identification calls inputs and outputs: a force is assumed".to_owned(),
+        _ => "called as system identification calls inputs and outputs: a displacement is assumed".to_owned(),
+    }];
     let table = table(channel, None, quantity, String::new());
     let mut draft = Draft { channel, table, placed: false, calibrated: true, assumed };
     draft.convert(None, quantity, "");
@@ -255,7 +270,9 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
         .filter(|quantity| channel.unit.is_empty() && (!moved || *quantity != Quantity::Displacement));
     let spoken = spoken(&channel.name).or(typed).or(symbol);
     let turned = unit.is_none() && channel.unit.is_empty() && angle(&channel.name);
+    let g = channel.unit.is_empty() && in_g(&channel.name);
     let quantity = unit.map(|unit| unit.quantity).or(spoken).or(turned.then_some(Quantity::Displacement));
+    let quantity = quantity.or(g.then_some(Quantity::Acceleration));
     let name = suffix(&channel.name).map_or(channel.name.as_str(), |(front, _)| front);
     let place = place_beside(&channel.attributes).or_else(|| place_of(channel.attribute("response").unwrap_or(name)));
     if let Some(draft) = calibrated(channel, set.clone(), place.clone()) {
@@ -281,7 +298,10 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
         draft.table.factor = Some(scale);
         draft.assumed.push(format!("its whole numbers are taken times the scale beside them, {scale}"));
     }
-    if turned {
+    if g {
+        draft.table.unit = Some("g".to_owned());
+        draft.assumed.push("by its name in g".to_owned());
+    } else if turned {
         draft.table.unit = Some("rad".to_owned());
         draft.assumed.push("by its name an angle; the file says no unit: rad is assumed".to_owned());
     } else {

@@ -10,7 +10,7 @@ use super::sparse_market::parse_sparse_market;
 use super::{read_dofs, read_lines, read_matrix, read_nodes};
 use crate::structure::imported::ImportedDof;
 use crate::structure::reduction::SparseSystem;
-use crate::structure::{Direction, Node};
+use crate::structure::{Direction, Node, TurnedNode};
 use dashpot_fe_files::{Geometry, Matrix, NodeDof, abaqus, calculix, inp, op4};
 use dashpot_numerics::SparseSymmetric;
 use faer::Mat;
@@ -62,8 +62,8 @@ pub(crate) struct Model {
     pub lines: Vec<[String; 2]>,
     /// What the files hold that is not understood but could matter.
     pub notes: Vec<String>,
-    /// Labels of the nodes whose displacements the files state in coordinate systems of their own.
-    pub turned: Vec<String>,
+    /// Nodes whose displacements the files state in directions of their own.
+    pub turned: Vec<TurnedNode>,
 }
 
 /// Kind of a file by its name and first words.
@@ -138,7 +138,8 @@ pub(crate) fn read_model(files: ModelFiles<'_>) -> Result<Model, TableError> {
         lines.clear();
     }
     drop_unknown(&mut lines, nodes.as_deref());
-    let turned = geometry.turned.iter().map(|node| node.node.to_string()).collect();
+    let turned =
+        geometry.turned.iter().map(|node| TurnedNode { label: node.node.to_string(), axes: node.axes }).collect();
     Ok(Model { system, dofs, nodes, lines, notes, turned })
 }
 

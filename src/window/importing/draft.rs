@@ -2,7 +2,7 @@
 
 use super::preview::Preview;
 use crate::exchange::frf::Form;
-use crate::exchange::importing::files::listed;
+use crate::exchange::importing::files::{listed, may_be_measurement};
 use crate::exchange::importing::{Functions, Holds, Request, look};
 use crate::exchange::mapping::{ChannelTable, Proposal};
 use crate::measurement::Quantity;
@@ -127,7 +127,7 @@ impl Draft {
         if request.files.is_empty() {
             return Err("There is no measurement among these files; give one together with the model.".to_owned());
         }
-        request.files.retain(|file| !paths.iter().any(|path| path.is_dir()) || is_measurement(file));
+        request.files.retain(|file| !paths.iter().any(|path| path.is_dir()) || may_be_measurement(file));
         if request.files.is_empty() {
             return Err(format!("{}: the folder has no file of measurements", paths[0].display()));
         }
@@ -183,15 +183,6 @@ impl Draft {
 fn opened(path: &Path) -> Opened {
     let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
     Opened { name, file: open(path).map(Arc::new).map_err(|e| e.to_string()) }
-}
-
-/// Whether a file of a folder may hold measurements; projects and notes beside them are passed over.
-fn is_measurement(file: &Path) -> bool {
-    let end = file.extension().map(|end| end.to_string_lossy().to_lowercase());
-    !matches!(
-        end.as_deref(),
-        None | Some("toml" | "md" | "pdf" | "png" | "jpg" | "svg" | "json" | "html" | "tdms_index")
-    )
 }
 
 /// Whether every file has every channel of a mapping.

@@ -211,7 +211,7 @@ impl Walk {
             };
             entries.push(Entry { name, ..entry });
         }
-        Node::of_cell(entries)
+        crate::tree::of_cell(entries)
     }
 
     fn numbers(&mut self, dataset: Dataset, attributes: &[(String, String)]) -> Read<Node> {

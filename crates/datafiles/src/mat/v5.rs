@@ -239,7 +239,7 @@ impl Walk<'_> {
         for i in 0..count {
             entries.extend(self.inner(format!("{{{}}}", i + 1), depth)?);
         }
-        Ok(Node::of_cell(entries))
+        Ok(crate::tree::of_cell(entries))
     }
 
     fn fields(&mut self, header: &Header, depth: usize) -> Read<Node> {

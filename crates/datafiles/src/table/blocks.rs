@@ -1,70 +1,16 @@
 //! Blocks of numbers in rows that come one by one.
 
-use super::cell::{Cell, date_and_time};
+use super::block::{Block, Numbers};
+use super::cell::Cell;
 use super::header_line::HeaderLine;
+use super::moment::date_and_time;
+use super::text_columns::{self, Run};
 use crate::error::{Fault, Read, one_line};
 
 /// Most lines of a header that are kept: names and units stand right above the numbers.
 const MOST_HEADER: usize = 200;
 /// Most columns of a table.
 const MOST_COLUMNS: usize = 20_000;
-
-/// A block of numbers.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Block {
-    /// Lines above it, without blank ones.
-    pub header: Vec<HeaderLine>,
-    /// Rows.
-    pub rows: usize,
-    pub columns: Vec<Numbers>,
-}
-
-/// Numbers of a column while its rows come in.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Numbers {
-    pub re: Vec<f64>,
-    /// As long as `re` where any number was complex, else empty.
-    pub im: Vec<f64>,
-    /// Whether the numbers are clock times.
-    pub clock: bool,
-    /// Rows from the end without a number.
-    pub missing: usize,
-    /// Empty cells between numbers.
-    pub gaps: usize,
-    /// Row of the first number.
-    pub first: usize,
-}
-
-impl Numbers {
-    fn push(&mut self, cell: &Cell, row: usize) {
-        let [re, im] = match cell {
-            Cell::Real(value) => [*value, 0.0],
-            Cell::Complex(value) => *value,
-            Cell::Clock(value) => {
-                self.clock = true;
-                [*value, 0.0]
-            }
-            Cell::Empty | Cell::Word(_) => {
-                self.missing += 1;
-                return;
-            }
-        };
-        if self.re.is_empty() {
-            self.first = row;
-            self.missing = 0;
-        }
-        for _ in 0..self.missing {
-            self.re.push(f64::NAN);
-            self.gaps += 1;
-        }
-        self.missing = 0;
-        if matches!(cell, Cell::Complex(_)) || !self.im.is_empty() {
-            self.im.resize(self.re.len(), 0.0);
-            self.im.push(im);
-        }
-        self.re.push(re);
-    }
-}
 
 /// Finds blocks of numbers in rows that come one by one.
 #[derive(Debug, Default)]
@@ -74,6 +20,8 @@ pub(crate) struct Blocks {
     done: Vec<Block>,
     gap: bool,
     lost_header: usize,
+    /// Rows of numbers with texts in the same columns, of which it is not known yet whether they are the table.
+    run: Run,
 }
 
 impl Blocks {
@@ -99,10 +47,13 @@ impl Blocks {
     }
 
     fn numbers(&mut self, line: u64, cells: &[Cell]) -> Read<()> {
+        if self.open.is_none() {
+            self.pass_run();
+        }
         if let Some(block) = &self.open
-            && cells.len() > block.columns.len()
+            && cells.len() > block.columns.len() + block.skip
         {
-            let (found, expected) = (cells.len(), block.columns.len());
+            let (found, expected) = (cells.len(), block.columns.len() + block.skip);
             if block.rows <= 1 {
                 // A lone number above the table, such as a count of samples.
                 self.demote();
@@ -122,8 +73,9 @@ impl Blocks {
             let header = std::mem::take(header);
             let named = header.last().map_or(0, |line| line.cells.len());
             let width = cells.len().max(if named <= cells.len() + 64 { named } else { 0 });
-            Block { header, rows: 0, columns: vec![Numbers::default(); width] }
+            text_columns::begun(header, cells, width)
         });
+        let cells = cells.get(block.skip..).unwrap_or_default();
         let row = block.rows;
         for (i, column) in block.columns.iter_mut().enumerate() {
             column.push(cells.get(i).unwrap_or(&Cell::Empty), row);
@@ -133,15 +85,18 @@ impl Blocks {
     }
 
     fn words(&mut self, line: u64, cells: &[Cell], words: usize) -> Read<()> {
+        if let Some(numbers) = self.open.as_mut().and_then(|block| text_columns::numbers_of(block, cells)) {
+            return self.numbers(line, &numbers);
+        }
         if let Some(block) = &self.open {
             let numbers = cells.iter().filter(|cell| cell.is_number()).count();
             let comment =
                 matches!(cells.first(), Some(Cell::Word(word)) if word.starts_with(['#', '%', '!', '*', '/']));
             // Words behind the last column are remarks.
-            let remark =
-                cells[..cells.len().min(block.columns.len())].iter().all(|cell| !matches!(cell, Cell::Word(_)));
+            let width = block.skip + block.columns.len();
+            let remark = cells[..cells.len().min(width)].iter().all(|cell| !matches!(cell, Cell::Word(_)));
             if remark && numbers > 0 {
-                let kept = cells[..block.columns.len()].to_vec();
+                let kept = cells[..width].to_vec();
                 return self.numbers(line, &kept);
             }
             if numbers > 0 && numbers >= words && !self.gap && block.rows > 1 {
@@ -169,11 +124,46 @@ impl Blocks {
         {
             return self.numbers(line, &cells[..width]);
         }
+        if !self.run.takes(cells) {
+            self.pass_run();
+        }
+        if self.run.takes(cells) {
+            self.run.push(line, cells);
+            if self.run.rows.len() > MOST_HEADER {
+                self.open_run()?;
+            }
+            return Ok(());
+        }
+        self.remark(HeaderLine { cells: cells.iter().map(text).collect() });
+        Ok(())
+    }
+
+    /// Keeps a line of the header.
+    fn remark(&mut self, line: HeaderLine) {
         if self.header.len() >= MOST_HEADER {
             self.header.remove(MOST_HEADER / 2);
             self.lost_header += 1;
         }
-        self.header.push(HeaderLine { cells: cells.iter().map(text).collect() });
+        self.header.push(line);
+    }
+
+    /// What looked like rows with texts among their numbers were lines of the header.
+    fn pass_run(&mut self) {
+        for (_, cells) in std::mem::take(&mut self.run).rows {
+            self.remark(HeaderLine { cells: cells.iter().map(text).collect() });
+        }
+    }
+
+    /// Rows with texts among their numbers are the table.
+    fn open_run(&mut self) -> Read<()> {
+        let run = std::mem::take(&mut self.run);
+        let width = run.rows.first().map_or(0, |(_, cells)| cells.len());
+        let header = std::mem::take(&mut self.header);
+        let columns = vec![Numbers::default(); width];
+        self.open = Some(Block { header, columns, texts: run.texts, ..Block::default() });
+        for (line, cells) in run.rows {
+            self.words(line, &cells, 1)?;
+        }
         Ok(())
     }
 
@@ -215,6 +205,9 @@ impl Blocks {
     /// Blocks in the order of the file, and the lines that follow the last.
     pub(crate) fn finish(mut self) -> (Vec<Block>, usize) {
         self.close();
+        if self.done.is_empty() && self.run.rows.len() >= text_columns::FEWEST && self.open_run().is_ok() {
+            self.close();
+        }
         (self.done, self.header.len() + self.lost_header)
     }
 }
@@ -226,5 +219,6 @@ fn text(cell: &Cell) -> String {
         Cell::Clock(value) => date_and_time(*value),
         Cell::Complex([re, im]) => format!("{re}{im:+}j"),
         Cell::Word(word) => word.clone(),
+        Cell::Span(_, text) => text.to_string(),
     }
 }

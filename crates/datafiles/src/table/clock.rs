@@ -1,6 +1,6 @@
 //! Clocks in several columns: a date, the time of day, parts of a second.
 
-use super::blocks::{Block, Numbers};
+use super::block::{Block, Numbers};
 use super::header::Header;
 
 /// Seconds of a day.

@@ -1,11 +1,11 @@
 //! Names, units and the sampling rate out of the lines above a block of numbers.
 
-use super::header_line::{HeaderLine, uncommented};
-use super::sampling::step;
+use super::header_line::{COMMENT_WORDS, HeaderLine, label, uncommented};
+use super::number::number;
+use super::sampling::{step, step_below};
 use crate::axis::kind_of;
-use crate::parts::unit_of_part;
 use crate::parts::words::is_bare_part;
-use crate::units::{is_unit, split, stripped, suffix};
+use crate::units::{is_unit, split, stripped};
 
 /// What a header says.
 #[derive(Debug, Default)]
@@ -22,7 +22,9 @@ pub(crate) struct Header {
     pub remarks: Vec<String>,
 }
 
-const NAME_WORDS: [&str; 13] = [
+const NAME_WORDS: [&str; 15] = [
+    "source",
+    "trace",
     "name",
     "names",
     "channel",
@@ -37,11 +39,24 @@ const NAME_WORDS: [&str; 13] = [
     "dof",
     "dofs",
 ];
-const UNIT_WORDS: [&str; 9] =
-    ["unit", "units", "einheit", "einheiten", "y_unit", "y_unit_label", "y axis unit", "y-axis unit", "ordinate unit"];
+const UNIT_WORDS: [&str; 11] = [
+    "unit",
+    "units",
+    "einheit",
+    "einheiten",
+    "y_unit",
+    "y unit",
+    "y_unit_label",
+    "y axis unit",
+    "y-axis unit",
+    "ordinate unit",
+    "vertical units",
+];
+const AXIS_UNIT_WORDS: [&str; 6] =
+    ["x unit", "x_unit", "x axis unit", "x-axis unit", "abscissa unit", "horizontal units"];
 const SENSITIVITY_WORDS: [&str; 5] = ["sensitivity", "sensitivities", "sens.", "empfindlichkeit", "sensibilità"];
 
-/// Most rows between the units and the numbers, or between names and units.
+/// Most rows between units and numbers, or between names and units.
 const MOST_BELOW: usize = 8;
 
 /// Reads the header of a block of `width` columns.
@@ -167,6 +182,11 @@ fn rows(lines: &[HeaderLine], width: usize) -> Header {
         header.sensitivities = lines[at].cells.iter().map(|cell| uncommented(cell).to_owned()).collect();
     }
     header.units_behind_names();
+    header.comments(names.and_then(|at| lines.get(at + 1)));
+    if let Some(at) = labelled(&AXIS_UNIT_WORDS).filter(|_| header.units[0].is_empty()) {
+        stripped(&lines[at].cells[1]).clone_into(&mut header.units[0]);
+    }
+    header.step = step_below(lines);
     if let Some(unit) = lines.iter().find_map(|line| unit_of_functions(&line.cells)) {
         header.take_unit_of_functions(&unit);
     }
@@ -209,6 +229,12 @@ fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usiz
     {
         return (Some(names), Some(units));
     }
+    // Comments on the channels below their names.
+    if COMMENT_WORDS.contains(&label(&lines[last].cells[0]).as_str())
+        && let Some(names) = above.filter(|&at| kind_of_cell(&lines[at].cells[0]))
+    {
+        return (Some(names), None);
+    }
     // Units above the names.
     match above.filter(|&at| units_row(&lines[at].cells)) {
         Some(at) => (Some(last), Some(at)),
@@ -216,12 +242,18 @@ fn unlabelled(lines: &[HeaderLine], width: usize) -> (Option<usize>, Option<usiz
     }
 }
 
+/// Whether a cell names an abscissa, with or without its unit.
+fn kind_of_cell(cell: &str) -> bool {
+    let (name, unit) = split(uncommented(cell));
+    kind_of(&name, &unit).is_some()
+}
+
 /// Whether a row has no more words than there are columns; one that has says something else.
 fn fits(cells: &[String], width: usize) -> bool {
     cells.iter().rposition(|cell| !cell.trim().is_empty()).is_none_or(|last| last < width)
 }
 
-/// Whether a row says the same of several columns, such as the time at which all were started: it holds no names.
+/// Whether a row says the same of all columns, such as the time of their start: it holds no names.
 fn same_throughout(cells: &[String]) -> bool {
     cells.len() > 1 && !cells[0].trim().is_empty() && cells.iter().all(|cell| *cell == cells[0])
 }
@@ -243,16 +275,15 @@ fn names_above(lines: &[HeaderLine], units: usize, width: usize) -> Option<usize
 
 /// Whether most of the cells of a row are units.
 fn units_row(cells: &[String]) -> bool {
-    let filled: Vec<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+    // Numbers behind the units are values of what stands above them.
+    let end =
+        cells.iter().rposition(|cell| !cell.is_empty() && number(cell, false).is_none()).map_or(0, |last| last + 1);
+    let filled: Vec<&String> = cells[..end].iter().filter(|cell| !cell.is_empty()).collect();
     let bracketed = |cell: &String| stripped(uncommented(cell)) != uncommented(cell);
     let units = filled.iter().filter(|cell| is_unit(uncommented(cell)) || bracketed(cell)).count();
     !filled.is_empty()
         && 2 * units > filled.len()
         && filled.iter().any(|cell| is_unit(uncommented(cell)) || bracketed(cell))
-}
-
-pub(super) fn label(cell: &str) -> String {
-    uncommented(cell).trim_end_matches([':', '=']).trim().to_lowercase()
 }
 
 impl Header {
@@ -282,45 +313,6 @@ impl Header {
             last = above.get(c).map(|cell| cell.trim()).filter(|cell| !cell.is_empty()).unwrap_or(last);
             if again[c] && !last.is_empty() {
                 *name = if name.eq_ignore_ascii_case("y") { last.to_owned() } else { format!("{last} {name}") };
-            }
-        }
-    }
-
-    /// Units behind a stroke, as DIN 461 has them (`F/N`, `t/s`), where most names have one; units in the last part of a name
-    /// (`acc_mg`), which keeps it.
-    fn units_behind_names(&mut self) {
-        let stroke = |name: &str| {
-            let (front, unit) = name.split_once('/')?;
-            let symbol = !front.is_empty() && front.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | ' '));
-            (symbol && is_unit(unit)).then(|| (front.trim().to_owned(), unit.trim().to_owned()))
-        };
-        let bare = |c: usize| self.units[c].is_empty() && !self.names[c].is_empty();
-        let all = (0..self.names.len()).filter(|&c| bare(c)).count();
-        let with = (0..self.names.len()).filter(|&c| bare(c) && stroke(&self.names[c]).is_some()).count();
-        for c in 0..self.names.len() {
-            if !self.units[c].is_empty() {
-                continue;
-            }
-            if with > 1
-                && 2 * with > all
-                && let Some((name, unit)) = stroke(&self.names[c])
-            {
-                (self.names[c], self.units[c]) = (name, unit);
-            } else if let Some((_, unit)) = suffix(&self.names[c]) {
-                unit.clone_into(&mut self.units[c]);
-            }
-        }
-    }
-
-    /// Gives levels and parts of functions without a unit that of all functions.
-    fn take_unit_of_functions(&mut self, stated: &str) {
-        for (name, unit) in self.names.iter().zip(&mut self.units) {
-            let level = unit.eq_ignore_ascii_case("dB");
-            let own = if level { "dB" } else { name };
-            if (level || unit.is_empty())
-                && let Some(of_part) = unit_of_part(own, &[stated.to_owned()])
-            {
-                *unit = of_part;
             }
         }
     }

@@ -6,8 +6,8 @@
 //! 2. Channel: Acc 1 [m/s²]        1   0.0   1.2e-3   3.4e-5        (number, abscissa, real, imaginary)
 //! ```
 
-use super::header::{Header, label};
-use super::header_line::HeaderLine;
+use super::header::Header;
+use super::header_line::{HeaderLine, label};
 use crate::axis::kind_of;
 use crate::units::{is_unit, split, stripped};
 

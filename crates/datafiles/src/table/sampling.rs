@@ -1,7 +1,8 @@
 //! The sampling rate out of the lines above a block of numbers.
 
-use super::cell::number;
-use super::header_line::uncommented;
+use super::header_line::{HeaderLine, label, uncommented};
+use super::number::number;
+use crate::tree::{Sampling, sampling};
 
 /// The time between samples out of a line such as `Sampling rate: 2048 Hz` or `dt [s];0.001`.
 pub(crate) fn step(cells: &[String]) -> Option<f64> {
@@ -42,6 +43,24 @@ pub(crate) fn step(cells: &[String]) -> Option<f64> {
     Some(if is_rate { 1.0 / (value * scale) } else { value * scale })
 }
 
+/// Words that a table may have above numbers of another meaning.
+const LOOSE: [&str; 4] = ["step", "interval", "dx", "ts"];
+
+/// The time between samples that stands below its name, as oscilloscopes write it: `X,CH1,Start,Increment` above
+/// `Sequence,Volt,0.0,1e-3`.
+pub(super) fn step_below(lines: &[HeaderLine]) -> Option<f64> {
+    lines.windows(2).find_map(|pair| {
+        let [names, values] = pair else { return None };
+        let below =
+            names.cells.iter().zip(&values.cells).skip(1).filter(|(name, _)| !LOOSE.contains(&label(name).as_str()));
+        let mut stated = below.filter_map(|(name, value)| sampling(name, number(value, false)?));
+        stated.find_map(|sampling| match sampling {
+            Sampling::Step(step) => Some(step),
+            Sampling::Start(_) => None,
+        })
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,5 +72,8 @@ mod tests {
         assert_eq!(of("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
         assert_eq!(of("dt = 0.5 ms"), Some(0.0005));
         assert_eq!(of("date: 2024"), None);
+        let lines = ["X,CH1,CH2,Start,Increment", "Sequence,Volt,Volt,-0.001,0.0005"];
+        let lines = lines.map(|line| HeaderLine { cells: line.split(',').map(str::to_owned).collect() });
+        assert_eq!((step_below(&lines), step_below(&lines[1..])), (Some(0.0005), None));
     }
 }

@@ -1,8 +1,8 @@
 //! From blocks of numbers to sets: which column is the abscissa, how many values each has.
 
-use super::blocks::{Block, Numbers};
+use super::block::{Block, Numbers};
 use super::clock::{join_date, join_fractions, pass_midnight};
-use super::{header, indices, listed};
+use super::{header, indices, listed, number, wrapped};
 use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
 use crate::contents::{Axis, Channel, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
@@ -57,7 +57,14 @@ pub(crate) fn finish(name: &str, blocks: Vec<Block>) -> (Vec<Set>, Vec<Columns>)
 
 /// The header of a block, its column of the abscissa, and what is said of its clock and its rate.
 fn prepared(block: &mut Block) -> (header::Header, Option<(usize, Kind)>, Vec<String>) {
+    let wrapped = wrapped::unwrap(block);
     let mut header = header::read(&block.header, block.columns.len());
+    if let Some(stated) = wrapped {
+        (header.names, header.units) = (vec![stated.name], vec![stated.unit]);
+        header.step = header.step.or(stated.step);
+        let said = format!("its {} samples are written on in lines of several", block.rows);
+        return (header, None, vec![said]);
+    }
     listed::take(&mut header, &block.header);
     indices::keep(&mut header);
     join_date(&mut header, block);
@@ -91,6 +98,11 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
         }
     }
     for (i, numbers) in block.columns.into_iter().enumerate() {
+        if block.texts.contains(&i) || numbers.re.is_empty() && number::number(&header.names[i], false).is_some() {
+            let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
+            set.notes.extend(block.texts.contains(&i).then(|| format!("\"{name}\" holds texts: it is no channel")));
+            continue;
+        }
         if axis.is_some_and(|(at, _)| at == i) || unused(&numbers, &header.names[i]) {
             continue;
         }
@@ -179,9 +191,9 @@ fn stated_step(header: &mut header::Header, block: &mut Block) -> Option<String>
 }
 
 /// Names of a column that counts the rows.
-const COUNTERS: [&str; 16] = [
-    "", "line", "row", "index", "idx", "no", "no.", "nr", "nr.", "#", "sample", "samples", "point", "zeile", "kanal",
-    "channel",
+const COUNTERS: [&str; 18] = [
+    "", "x", "sequence", "line", "row", "index", "idx", "no", "no.", "nr", "nr.", "#", "sample", "samples", "point",
+    "zeile", "kanal", "channel",
 ];
 
 /// Whether the first column counts the rows, 0, 1, 2, ... or 1, 2, 3, ...

@@ -60,7 +60,47 @@ fn latin(byte: u8) -> char {
     }
 }
 
+/// Lines of a header in which cells in quotes may go on over several.
+const HEAD: usize = 200;
+/// Most further lines of one row.
+const MOST_LINES: usize = 16;
+
 /// Lines with their numbers from 1.
 pub(super) fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
     text.lines().enumerate().map(|(i, line)| (i as u64 + 1, line))
+}
+
+/// Rows with the numbers of their lines from 1. Cells in quotes that go on over several lines, as spreadsheets write their heads, stand in one.
+pub(super) fn rows(text: &str) -> impl Iterator<Item = (u64, Cow<'_, str>)> {
+    let mut lines = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        let (i, line) = lines.next()?;
+        let more = if i < HEAD && opens(line) { further(line, lines.clone()) } else { 0 };
+        let row = match more {
+            0 => line.into(),
+            more => [line]
+                .into_iter()
+                .chain(lines.by_ref().take(more).map(|(_, line)| line))
+                .collect::<Vec<_>>()
+                .join(" ")
+                .into(),
+        };
+        Some((i as u64 + 1, row))
+    })
+}
+
+/// Whether the last quote of a line opens a cell and is not closed.
+fn opens(line: &str) -> bool {
+    let begins = |at: usize| at == 0 || line[..at].ends_with([',', ';', '\t']);
+    line.matches('"').count() % 2 == 1 && line.rfind('"').is_some_and(begins)
+}
+
+/// How many further lines a row has, until its quotes are closed; 0 where they are not.
+fn further<'a>(line: &str, behind: impl Iterator<Item = (usize, &'a str)>) -> usize {
+    let mut quotes = line.matches('"').count();
+    let closed = behind.take(MOST_LINES).position(|(_, line)| {
+        quotes += line.matches('"').count();
+        quotes.is_multiple_of(2)
+    });
+    closed.map_or(0, |at| at + 1)
 }

@@ -1,7 +1,7 @@
 //! Which separator and which decimal sign a text table uses: the pair under which most lines are rows of numbers.
 
-use crate::table::Cell;
-use crate::table::cell::number;
+use crate::table::number::number;
+use crate::table::{Cell, FEWEST, texts_of};
 
 /// Lines that are looked at, from the start and from the middle.
 const SAMPLE: usize = 400;
@@ -49,7 +49,29 @@ impl Dialect {
                 best = Some((score, candidate));
             }
         }
-        best.map(|(_, dialect)| dialect)
+        let counted = best.map_or(0, |(_, dialect)| dialect.rows_with_texts(&sample, false));
+        let texts = CANDIDATES.into_iter().map(|candidate| (candidate.rows_with_texts(&sample, true), candidate));
+        // The first of the best, as above.
+        let texts = texts.rev().max_by_key(|(rows, _)| *rows);
+        match texts {
+            Some((rows, dialect)) if rows > counted && rows >= FEWEST && 2 * rows >= sample.len() => Some(dialect),
+            _ => best.map(|(_, dialect)| dialect),
+        }
+    }
+
+    /// Lines of two numbers and more with texts in the same columns; without `texts` lines of numbers alone.
+    fn rows_with_texts(self, sample: &[&str], texts: bool) -> usize {
+        let mut alike = std::collections::HashMap::<(usize, Vec<usize>), usize>::new();
+        let (mut cells, mut numbers) = (Vec::new(), 0);
+        for line in sample {
+            self.cells(line, &mut cells);
+            if let Some(texts) = texts_of(&cells) {
+                *alike.entry((cells.len(), texts)).or_default() += 1;
+            }
+            let words = cells.iter().any(|cell| matches!(cell, Cell::Word(_)));
+            numbers += usize::from(!words && cells.iter().any(Cell::is_number));
+        }
+        if texts { alike.into_values().max().unwrap_or(0) } else { numbers }
     }
 
     /// Lines of numbers of the commonest width; a line of several cells counts a little more than one of a single. Among equals

@@ -7,7 +7,7 @@ use super::decode::numbered;
 use crate::axis::even_step;
 use crate::contents::{Axis, Channel, Contents, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read, one_line};
-use crate::table::cell::number;
+use crate::table::number::number;
 use crate::table::{Column, Columns, TableSource};
 use uff::Values;
 

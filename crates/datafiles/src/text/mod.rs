@@ -10,7 +10,7 @@ use crate::error::{Fault, Read};
 use crate::source::Source;
 use crate::table::{Blocks, TableSource, finish};
 pub(crate) use decode::decode;
-use decode::numbered;
+use decode::rows;
 use dialect::{Dialect, Separator};
 pub use names::listed_names;
 use std::path::Path;
@@ -53,15 +53,15 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
     };
     let mut blocks = Blocks::default();
     let mut cells = Vec::new();
-    let mut last = (0, "");
-    for (line, row) in numbered(text) {
-        dialect.cells(row, &mut cells);
+    let mut last = 0;
+    for (line, row) in rows(text) {
+        dialect.cells(&row, &mut cells);
         blocks.push(line, &cells)?;
-        last = (line, row);
+        last = line;
     }
     let (blocks, behind) = blocks.finish();
     if blocks.is_empty() {
-        return Err(Fault::line(last.0, "there is no row of numbers; export the measurement with its samples"));
+        return Err(Fault::line(last, "there is no row of numbers; export the measurement with its samples"));
     }
     let letter = matches!(dialect.separator, Separator::Letter(_));
     let mut contents = Contents::new(if letter { Format::Csv } else { Format::Txt });

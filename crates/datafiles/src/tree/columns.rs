@@ -2,9 +2,10 @@
 
 use super::abscissa::Abscissa;
 use super::context::{Context, note};
-use super::labels::Labels;
+use super::labels::{self, Labels};
 use super::names;
 use super::source::Place;
+use super::timeseries::is_plain;
 use super::{Array, Cut, Entry};
 use crate::axis::kind_of;
 use crate::contents::{Axis, Channel, FIRST, Number, Set};
@@ -30,6 +31,11 @@ pub(super) fn first(array: &Array, wanted: &[u64], cut: &Cut, channel: u64) -> V
     let places = (0..cut.count.min(FIRST as u64)).map(|i| cut.offset(channel) + i * cut.stride);
     let kept = |place| wanted.binary_search(&place).ok().and_then(|at| array.peek.get(at).copied());
     places.filter_map(kept).map(|value| number(value, array.complex)).collect()
+}
+
+/// Whether a name is a direction alone.
+fn is_direction(name: &str) -> bool {
+    matches!(name.trim_start_matches(['+', '-']), "x" | "y" | "z" | "X" | "Y" | "Z")
 }
 
 /// A number of an array.
@@ -59,22 +65,23 @@ pub(super) fn add(
     let beside =
         labels.unit_of.iter().find(|(name, _)| *name == entry.name.to_lowercase()).map(|(_, unit)| unit.as_str());
     let side = labels.sides.iter().find(|(array, ..)| entry.name.eq_ignore_ascii_case(array));
-    let list_of = |word: fn(&str) -> bool| -> Vec<String> {
-        let said = entry.attributes.iter().find(|(name, value)| word(name) && value.contains(", "));
-        said.map(|(_, value)| value.split(", ").map(str::to_owned).collect()).unwrap_or_default()
-    };
+    let list_of = |word: fn(&str) -> bool| labels::list_of(&entry.attributes, word).unwrap_or_default();
+    let (items, item_units) = (labels.items_of(&entry.name), labels.item_units_of(&entry.name));
     let (own_names, own_units) = (list_of(names::is_names_word), list_of(names::is_unit_word));
     let all: Vec<u64> = (0..cut.channels).collect();
     let chosen = chosen.map_or(&all[..], |(_, chosen)| chosen);
     let several = chosen.len() > 1;
     for (k, &c) in chosen.iter().enumerate() {
-        let listed = |list: &[String]| (list.len() == chosen.len()).then(|| list[k].clone());
+        let listed = |list: &Vec<String>| (list.len() == chosen.len()).then(|| list[k].clone());
         let numbered = if several { format!("{}[{}]", entry.name, k + 1) } else { entry.name.clone() };
         let beside_name = side.and_then(|(_, names, _)| listed(names));
         let name = beside_name.or_else(|| listed(&own_names).filter(|_| several));
-        let name = name.or_else(|| listed(&labels.names).filter(|_| several));
-        // A place alone does not say what was measured there; the name of the array may.
-        let place = |name: &String| name.starts_with(|c: char| c.is_ascii_digit());
+        let item = || items.and_then(listed);
+        let name = name.or_else(item).or_else(|| listed(&labels.names).filter(|_| several));
+        // A place or a direction alone does not say what was measured there; the name of the array may.
+        let place = |name: &String| {
+            name.starts_with(|c: char| c.is_ascii_digit()) || is_direction(name) && !is_plain(&entry.name)
+        };
         let told_apart = |name: &String| place(name) || labels.shared && labels.names.contains(name);
         let name = name.map(|name| if told_apart(&name) { format!("{} {name}", entry.name) } else { name });
         let name = name.unwrap_or(numbered);
@@ -82,6 +89,7 @@ pub(super) fn add(
         let unit = single
             .map(str::to_owned)
             .or_else(|| listed(&own_units))
+            .or_else(|| item_units.and_then(listed))
             .or_else(|| side.and_then(|(_, _, units)| listed(units)))
             .or_else(|| beside.map(str::to_owned))
             .or_else(|| suffix(&entry.name).filter(|_| !several).map(|(_, unit)| unit.to_owned()));

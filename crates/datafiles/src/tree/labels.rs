@@ -9,6 +9,8 @@ pub(super) struct Labels {
     pub names: Vec<String>,
     pub units: Vec<String>,
     pub unit_of: Vec<(String, String)>,
+    /// All lists of texts, with their names.
+    items: Vec<(String, Vec<String>)>,
     pub sides: Vec<Side>,
     /// Whether the names are those of the columns of several arrays.
     pub shared: bool,
@@ -18,7 +20,7 @@ pub(super) struct Labels {
 pub(super) type Side = (&'static str, Vec<String>, Vec<String>);
 
 impl Labels {
-    pub(super) fn of(entries: &[Entry]) -> Self {
+    pub(super) fn of(entries: &[Entry], attributes: &[(String, String)]) -> Self {
         let texts = |entry: &Entry| match &entry.node {
             Node::Text(texts) => Some(texts.clone()),
             _ => None,
@@ -30,8 +32,10 @@ impl Labels {
         });
         let all: Vec<&Entry> = entries.iter().chain(inner.flatten()).collect();
         let find = |word: fn(&str) -> bool| {
-            all.iter().filter(|entry| word(&entry.name)).find_map(|entry| texts(entry)).unwrap_or_default()
+            let beside = all.iter().filter(|entry| word(&entry.name)).find_map(|entry| texts(entry));
+            beside.or_else(|| list_of(attributes, word)).unwrap_or_default()
         };
+        let items = entries.iter().filter_map(|entry| Some((entry.name.clone(), texts(entry)?)));
         let named = |name: &str| entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name)).and_then(texts);
         // Data of system identification: outputs and inputs with names and units of their own.
         let sides = [("y", "output"), ("outputdata", "output"), ("u", "input"), ("inputdata", "input")];
@@ -51,11 +55,49 @@ impl Labels {
             _ => false,
         };
         let shared = names.len() > 1 && entries.iter().filter(takes).count() > 1;
-        Self { names, units: find(names::is_unit_word), unit_of: unit_of.collect(), sides, shared }
+        let (unit_of, items) = (unit_of.collect(), items.collect());
+        Self { names, units: find(names::is_unit_word), unit_of, items, sides, shared }
     }
 }
 
+/// What the name of a list has behind that of an array.
+fn rest<'a>(list: &'a str, array: &str) -> Option<&'a str> {
+    list.strip_prefix(array).map(|rest| rest.trim_start_matches('_')).filter(|rest| !rest.is_empty())
+}
+
+/// The list that an attribute gives under a word.
+pub(super) fn list_of(attributes: &[(String, String)], word: fn(&str) -> bool) -> Option<Vec<String>> {
+    let said = attributes.iter().find(|(name, value)| word(name) && value.contains(", "));
+    said.map(|(_, value)| value.split(", ").map(str::to_owned).collect())
+}
+
+/// The attributes of a group with the lists of the group above, where it has none of its own.
+pub(super) fn with_lists_above(own: &[(String, String)], above: &[(String, String)]) -> Vec<(String, String)> {
+    let mut all = own.to_vec();
+    for word in [names::is_names_word, names::is_unit_word] {
+        if list_of(own, word).is_none() {
+            all.extend(above.iter().find(|(name, value)| word(name) && value.contains(", ")).cloned());
+        }
+    }
+    all
+}
+
 impl Labels {
+    /// Names of the columns of one array, by the name of the list: `xLabels` beside `x`; pandas has `block0_items` beside `block0_values`.
+    pub(super) fn items_of(&self, array: &str) -> Option<&Vec<String>> {
+        let of_pandas = || array.strip_suffix("_values").map(|stem| format!("{stem}_items"));
+        let named = |list: &str| {
+            rest(list, array).is_some_and(names::is_names_word) || of_pandas().is_some_and(|of| of == list)
+        };
+        self.items.iter().find(|(list, _)| named(list)).map(|(_, texts)| texts)
+    }
+
+    /// Units of the columns of one array, by the name of the list: `xUnits` beside `x`.
+    pub(super) fn item_units_of(&self, array: &str) -> Option<&Vec<String>> {
+        let named = |list: &str| rest(list, array).is_some_and(names::is_unit_word);
+        self.items.iter().find(|(list, _)| named(list)).map(|(_, texts)| texts)
+    }
+
     /// The arrays of a cell under the names that lie beside it, one each.
     pub(super) fn named_cells(&self, cells: &[Entry]) -> Option<Vec<Entry>> {
         let numbered = |entry: &Entry| entry.name.starts_with('{') && matches!(entry.node, Node::Array(_));

@@ -1,6 +1,7 @@
 //! Files that are trees of named arrays (MAT, HDF5, NumPy): which arrays are channels of one set, which is their abscissa.
 
 mod abscissa;
+mod cells;
 mod columns;
 mod context;
 mod headers;
@@ -13,6 +14,7 @@ mod sets;
 mod source;
 mod timeseries;
 
+pub(crate) use cells::of_cell;
 pub(crate) use names::{Sampling, sampling};
 pub(crate) use sets::sets;
 pub(crate) use source::{Arrays, Flat, TreeSource};
@@ -26,9 +28,6 @@ const MOST_CHANNELS: u64 = 4096;
 const MOST_OF_TESTS: u64 = 1 << 16;
 /// Most values of an array that are read when its tree is made, to see whether an abscissa is even.
 pub(crate) const MOST_CHECKED: u64 = 1 << 20;
-
-/// Most single numbers of a cell array that stand among its texts as words; where there are more they are measured.
-const MOST_NUMBERS: usize = 256;
 
 /// A named part of a file.
 #[derive(Debug, Clone)]
@@ -56,27 +55,6 @@ pub(crate) enum Node {
     Text(Vec<String>),
     /// What is not read, and why.
     Skipped(String),
-}
-
-impl Node {
-    /// What a cell array holds: texts are a list of names, also with single numbers among them, as in a table of sensors.
-    pub(crate) fn of_cell(entries: Vec<Entry>) -> Self {
-        let word = |entry: &Entry| match &entry.node {
-            Node::Text(texts) => Some(texts.join(" ")),
-            Node::Array(array) => array.scalar().map(|value| value.to_string()),
-            Node::Group(_) | Node::Skipped(_) => None,
-        };
-        let words: Option<Vec<String>> = entries.iter().map(word).collect();
-        let texts = entries.iter().filter(|entry| matches!(entry.node, Node::Text(_))).count();
-        match words {
-            Some(words) if texts > 0 && words.len() - texts <= MOST_NUMBERS => Node::Text(words),
-            Some(words) if texts > 0 => Node::Skipped(format!(
-                "its {} numbers stand one by one in a cell with texts; save them as an array (cell2mat of the cells with numbers)",
-                words.len() - texts
-            )),
-            _ => Node::Group(entries),
-        }
-    }
 }
 
 /// An array of numbers in the file.
@@ -210,22 +188,6 @@ impl Array {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-
-    #[test]
-    fn cells_of_texts_and_numbers_are_lists_of_words() {
-        let number = |value: f64| {
-            let shape = Shape::new([1, 1], true);
-            Entry::new("", Node::Array(Array { id: 0, shape, complex: false, peek: vec![[value, 0.0]] }))
-        };
-        let text = |word: &str| Entry::new("", Node::Text(vec![word.to_owned()]));
-        let mixed = Node::of_cell(vec![text("acc"), number(12.0), text("+Z"), number(0.5)]);
-        assert!(matches!(&mixed, Node::Text(words) if words[..] == ["acc", "12", "+Z", "0.5"]), "{mixed:?}");
-        assert!(matches!(Node::of_cell(vec![number(1.0), number(2.0)]), Node::Group(_)));
-        assert!(matches!(Node::of_cell(Vec::new()), Node::Group(_)));
-        let signal = [vec![text("t")], (0..300).map(|i| number(f64::from(i))).collect()].concat();
-        let said = Node::of_cell(signal);
-        assert!(matches!(&said, Node::Skipped(why) if why.contains("300 numbers")), "{said:?}");
-    }
 
     #[test]
     fn arrays_are_cut_along_their_longest_extent() {

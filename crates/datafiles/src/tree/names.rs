@@ -27,12 +27,13 @@ pub(crate) fn sampling(name: &str, value: f64) -> Option<Sampling> {
         }
         "dt" | "ts" | "deltat" | "dts" | "step" | "timestep" | "sampleinterval" | "samplinginterval"
         | "sampleperiod" | "samplingperiod" | "wfincrement" | "xincrement" | "xinc" | "increment" | "dx" | "deltax"
-        | "interval"
+        | "xdelta" | "xstep" | "xspacing" | "tinterval" | "tstep" | "timeinterval" | "timeincrement" | "sampletime"
+        | "samplingtime" | "interval"
             if usable =>
         {
             Some(Sampling::Step(value))
         }
-        "t0" | "x0" | "startvalue" | "xstart" | "xorg" | "start" | "starttime" if value.is_finite() => {
+        "t0" | "x0" | "startvalue" | "xstart" | "xorg" | "tstart" | "start" | "starttime" if value.is_finite() => {
             Some(Sampling::Start(value))
         }
         _ => None,
@@ -52,6 +53,10 @@ pub(super) fn is_unit_word(name: &str) -> bool {
             | "yunit"
             | "yunits"
             | "yunitlabel"
+            | "channelunits"
+            | "channelunit"
+            | "sensorunits"
+            | "signalunits"
             | "engineeringunits"
             | "eu"
     )
@@ -64,6 +69,8 @@ pub(super) fn is_names_word(name: &str) -> bool {
         "names"
             | "labels"
             | "channels"
+            | "channel"
+            | "sensor"
             | "channelnames"
             | "channellabels"
             | "channelname"

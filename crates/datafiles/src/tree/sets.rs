@@ -8,14 +8,14 @@ use super::abscissa::Abscissa;
 use super::columns::{self, Columns, first, number};
 use super::context::{Context, note};
 use super::headers::with_headers;
-use super::labels::Labels;
+use super::labels::{Labels, with_lists_above};
 use super::names;
 use super::own_times::OwnTimes;
 use super::repeated::Repeated;
 use super::source::Place;
 use super::timeseries::name_data;
 use super::{Array, Arrays, Entry, MOST_CHECKED, Node, Shape};
-use crate::axis::{ascending, even_step, kind_of};
+use crate::axis::{ascending, even_step, kind_of, unit_of_time, unit_since_1970};
 use crate::contents::{Axis, Channel, FIRST, Kind, Set};
 use crate::error::Read;
 use crate::units::is_unit;
@@ -57,7 +57,7 @@ impl Made<'_> {
         let own = self.abscissa(entries)?;
         let handed = above.1.filter(|axis| context == above.0 && is_of(axis, entries));
         let axis = own.as_ref().or(handed);
-        let labels = Labels::of(entries);
+        let labels = Labels::of(entries, attributes);
         self.set(path, entries, attributes, context, axis, &labels)?;
         let below = own.map(|axis| Abscissa { entry: None, ..axis });
         let below = below.as_ref().or(above.1.filter(|_| context == above.0));
@@ -68,7 +68,8 @@ impl Made<'_> {
                 let name = if path.is_empty() { entry.name.clone() } else { format!("{path}/{}", entry.name) };
                 let named = labels.named_cells(inner);
                 let inner = named.as_deref().unwrap_or(inner);
-                self.group(&name, inner, &entry.attributes, (context, below), depth + 1)?;
+                let handed = with_lists_above(&entry.attributes, attributes);
+                self.group(&name, inner, &handed, (context, below), depth + 1)?;
             }
         }
         Ok(())
@@ -171,10 +172,12 @@ impl Made<'_> {
 
     /// The vector that is the abscissa of a group.
     fn abscissa(&self, entries: &[Entry]) -> Read<Option<Abscissa>> {
-        for (i, entry) in entries.iter().enumerate() {
+        let named = |entry: &Entry| kind_of(&entry.name, names::unit_of(&entry.attributes).unwrap_or_default());
+        let all = || entries.iter().enumerate();
+        let indices = all().filter(|(_, entry)| is_index(entry)).map(|found| (found, Kind::Time));
+        for ((i, entry), kind) in all().filter_map(|found| Some((found, named(found.1)?))).chain(indices) {
             let Node::Array(array) = &entry.node else { continue };
             let unit = names::unit_of(&entry.attributes).unwrap_or_default();
-            let Some(kind) = kind_of(&entry.name, unit) else { continue };
             let Some(count) = array.shape.len().filter(|&count| count > 1 && array.is_vector() && !array.complex)
             else {
                 continue;
@@ -193,8 +196,9 @@ impl Made<'_> {
             } else {
                 array.step_of_peek(count)
             };
+            let counted = || array.peek.first().and_then(|value| unit_since_1970(value[0]));
             let unit = match (unit, kind) {
-                ("", Kind::Time) => "s",
+                ("", Kind::Time) => unit_of_time(&entry.name).or_else(counted).unwrap_or("s"),
                 ("", _) if names::radians_beside(entries, &entry.name) => "rad/s",
                 ("", _) => "Hz",
                 (unit, _) => unit,
@@ -291,6 +295,14 @@ fn within(entry: &Entry, wanted: &impl Fn(&Entry) -> bool, depth: usize) -> bool
         Node::Group(inner) => depth < DEEPEST && inner.iter().any(|entry| within(entry, wanted, depth + 1)),
         _ => wanted(entry),
     }
+}
+
+/// Whether an array is the index of a table of pandas that counts no rows: times.
+fn is_index(entry: &Entry) -> bool {
+    let Node::Array(array) = &entry.node else { return false };
+    let peek = |i: usize| array.peek.get(i).map(|value| value[0]);
+    let counts = matches!((peek(0), peek(1)), (Some(first), Some(second)) if (first == 0.0 || first == 1.0) && second - first == 1.0);
+    matches!(entry.name.as_str(), "index" | "axis1") && !counts
 }
 
 /// Whether an abscissa of a group above is as long as an array here.
