@@ -8,7 +8,7 @@ use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::ChannelCorrection;
-use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
+use crate::measurement::{Channel, Flag, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use crate::structure::StructureKind;
 use std::path::Path;
 use std::sync::Arc;
@@ -124,12 +124,15 @@ impl Plan {
             enabled: planned.enabled,
             exponential_window_s: planned.exponential_window_s,
         };
-        let run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref())).map_err(
-            |error| {
+        let mut run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref()))
+            .map_err(|error| {
                 let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
                 self.run_error(index, key, Problem::Transient { file: planned.name(), error })
-            },
-        )?;
+            })?;
+        if self.structure.kind() == StructureKind::Component {
+            // A testing machine may move it in any way.
+            run.findings.retain(|finding| finding.flag != Flag::OtherKind);
+        }
         self.in_time_on_its_base(index, run)
     }
 
