@@ -63,14 +63,10 @@ impl Plan {
         for index in 0..self.runs.len() {
             control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
             let piece = control.piece(index, self.runs.len());
-            // Loops of a component are compared as they are: no steady state is fitted to them.
-            let kind = match self.structure.kind() {
-                StructureKind::Component => Kind::Transient,
-                _ => self.runs[index].kind,
-            };
-            match kind {
-                Kind::Steady => runs.push(self.run(index, &piece)?),
-                Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
+            if self.file.is_steady(self.runs[index].kind) {
+                runs.push(self.run(index, &piece)?);
+            } else {
+                transient_runs.push(self.transient_run(index, &piece)?);
             }
             piece.report(1.0);
         }
