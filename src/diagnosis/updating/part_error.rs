@@ -85,6 +85,7 @@ impl Updating {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::effects::Effect;
     use crate::structure::chain::ChainParameters;
 
     #[test]
