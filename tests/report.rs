@@ -45,12 +45,22 @@ fn a_report_of_a_hidden_effect_says_what_is_missing() {
     let (file, folder) = (sample("cantilever-friction"), tempfile::tempdir().unwrap());
     // As long as it takes, on a machine that is busy too.
     let text = written(&["report", "--limit", "600"], &file, &folder.path().join("report.html"));
-    assert!(text.contains("No sources were identified"), "the reason stands in the report");
+    assert!(text.contains("No source was identified: the project states"), "the reason stands in the report");
     for wanted in ["Error map", "What is missing?", "Coulomb friction at DOF", "Ledger"] {
         assert!(text.contains(wanted), "{wanted}");
     }
     assert!(text.matches("data:image/svg+xml,").count() >= 5, "Bode, Nyquist, map, worst channel, missing force");
     assert!(text.contains("Missing force at DOF"), "the force over displacement and velocity");
+}
+
+#[test]
+fn a_report_of_a_component_has_no_empty_figure_and_blames_no_test_for_its_kind() {
+    let (file, folder) = (sample("damper-loops"), tempfile::tempdir().unwrap());
+    let text =
+        written(&["report", "--sections", "structure,measurements,energy"], &file, &folder.path().join("r.html"));
+    assert!(text.contains("1 degree of freedom"));
+    assert!(!text.contains("Energy per period and run"), "it is balanced over windows, there are no runs");
+    assert!(!text.contains("it looks like kind"), "a testing machine may move it in any way");
 }
 
 #[test]

@@ -205,7 +205,8 @@ fn suggestions_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String 
     let mut rows = vec![["missing", "probability %", "error after %", "parameters"].map(str::to_owned).to_vec()];
     for s in &diagnosis.suggestions {
         let list = s.added.source.effect.parameters().iter().zip(&s.added.source.parameters);
-        let values: Vec<String> = list.map(|(p, v)| format!("{} {}", p.name, number(*v))).collect();
+        let values: Vec<String> =
+            list.map(|(p, v)| format!("{} {} {}", p.name, number(*v), p.unit).trim_end().to_owned()).collect();
         let [probability, error] = [s.probability, s.error_after].map(|x| number(100.0 * x));
         rows.push(vec![title(structure, &s.added.source), probability, error, values.join(", ")]);
     }

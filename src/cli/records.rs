@@ -7,7 +7,7 @@ use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::records::amplitude::{AmplitudePoint, Line, line};
 use crate::diagnosis::records::compare::{ModeCurve, OneRecord, RecordPart};
 use crate::exchange::{Project, project::load};
-use crate::measurement::TransientRun;
+use crate::measurement::{Quantity, TransientRun};
 use crate::session::validation::compared_with_records;
 use crate::session::workers::Threads;
 use anyhow::{Context, bail};
@@ -124,7 +124,9 @@ pub(super) fn amplitude(arguments: &Analysis) -> anyhow::Result<String> {
 }
 
 fn curve_text(run: &TransientRun, curve: &ModeCurve) -> String {
-    let head = ["s", "amplitude", "Hz", "+-", "damping ratio %", "+-", "model Hz", "model %"];
+    let quantity = curve.channel.split('@').next().and_then(Quantity::from_word);
+    let amplitude = quantity.map_or_else(|| "A".to_owned(), |q| format!("A, {} (peak)", q.si_unit(false)));
+    let head = ["s", &amplitude, "Hz", "+-", "damping ratio %", "+-", "model Hz", "model %"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for p in &curve.measured {
         let same = curve.model.iter().find(|m| m.time_s == p.time_s);

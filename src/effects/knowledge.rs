@@ -3,7 +3,7 @@
 use super::description::{Constant, Description, Exponents};
 use super::effect::Effect;
 use super::kind::Kind;
-use super::law::{ChannelLaw, Law};
+use super::law::{ChannelLaw, Law, WholeLaw};
 use super::parameter::Parameter;
 use super::range::Range;
 
@@ -79,6 +79,14 @@ impl Effect {
     /// The effects on a relative motion with their laws.
     pub fn relative() -> impl Iterator<Item = (Self, &'static dyn Law)> {
         Self::ALL.into_iter().filter_map(|effect| Some((effect, effect.law()?)))
+    }
+
+    /// The effects on the whole structure with their laws.
+    pub fn of_whole_structures() -> impl Iterator<Item = (Self, &'static dyn WholeLaw)> {
+        Self::ALL.into_iter().filter_map(|effect| match effect.kind() {
+            Kind::Whole(law) => Some((effect, law)),
+            _ => None,
+        })
     }
 
     /// The errors of channels with their laws.

@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 /// Bounds of half the band of a Nyquist diagram, natural logarithms of frequency.
 const LEAST_BAND: f64 = 0.08;
 const MOST_BAND: f64 = 0.4;
+/// Share of a force that another one may be of where it is said to act alone.
+const ALONE: f64 = 0.02;
 
 /// A receptance between two DOFs on a range of frequencies.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,13 +39,19 @@ pub(crate) struct Point {
     pub deviation: f64,
 }
 
-/// Measured receptances at the fundamentals of all used runs that have both channels.
+/// Measured receptances at the fundamentals of all used runs that have both channels and in which no other force acts: a moving
+/// base loads every DOF, and motion over one of these forces is no receptance.
 pub(crate) fn measured(p: &Project, response: usize, excitation: usize) -> Vec<Point> {
     let response_of = |run: &crate::measurement::Run| {
         let channel =
             |want: &dyn Fn(&crate::measurement::Channel) -> bool| run.fit.channels.iter().find(|c| want(&c.channel));
         let force = channel(&|c| c.quantity == Measured::Force && c.dof == excitation)?;
         let motion = channel(&|c| c.quantity != Measured::Force && c.dof == response)?;
+        let size = |c: &crate::measurement::ChannelFit| c.amplitudes.first().map_or(0.0, |y| y.norm());
+        let forces = run.fit.channels.iter().filter(|c| c.channel.quantity == Measured::Force);
+        if forces.filter(|c| c.channel.dof != excitation).any(|c| size(c) > ALONE * size(force)) {
+            return None;
+        }
         let order = motion.channel.quantity.derivatives()?;
         let omega = run.fit.omega;
         let turn = (0..order).fold(c64::new(1.0, 0.0), |z, _| z * c64::new(0.0, omega));

@@ -9,6 +9,7 @@ use crate::exchange::Project;
 use crate::identify::{self, Outcome};
 use crate::measurement::Quantity;
 use crate::response::dynamic_stiffness::DynamicStiffness;
+use crate::structure::modes::Modes;
 use faer::c64;
 
 /// The sources of the answer at their values; a law that is not linear stands as the dashpot that takes out as much energy.
@@ -31,10 +32,25 @@ pub fn known(p: &Project) -> Vec<Source> {
     p.sources.iter().filter(acts).cloned().collect()
 }
 
-/// Frequencies for a model of which only its undamped modes are known, as [`frequencies`].
+/// Frequencies for a model with its known sources alone, as [`frequencies`].
 pub fn frequencies_of_modes(p: &Project) -> Vec<f64> {
-    let modes = p.structure.modes().map_or_else(|_| Vec::new(), |m| m.omega.clone());
-    spread(p, modes.into_iter().map(|w| (w, 0.01)))
+    let Ok(modes) = p.structure.modes() else { return spread(p, std::iter::empty()) };
+    let stiffness = DynamicStiffness::new(&p.structure, &known(p)).ok();
+    let damped = |r: usize| {
+        let ratio = stiffness.as_ref().map(|z| damping_ratio(&modes, r, z));
+        (modes.omega[r], ratio.filter(|ratio| *ratio > 0.0 && ratio.is_finite()).unwrap_or(0.01))
+    };
+    spread(p, (0..modes.len()).map(damped))
+}
+
+/// Damping ratio of a mode from its undamped shape, `Im (phi^T Z phi) / (2 omega^2)` of the mass-normalised `phi`: near enough for
+/// where a curve is to be drawn.
+fn damping_ratio(modes: &Modes, r: usize, stiffness: &DynamicStiffness<'_>) -> f64 {
+    let (omega, shape) = (modes.omega[r], modes.shapes.col(r));
+    let z = stiffness.matrix(omega);
+    let along: f64 =
+        (0..shape.nrows()).map(|j| shape[j] * (0..shape.nrows()).map(|i| shape[i] * z[(i, j)].im).sum::<f64>()).sum();
+    along / (2.0 * omega * omega)
 }
 
 /// Frequencies from a little below the lowest run to a little above the highest, closer together near the modes.

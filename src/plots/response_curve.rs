@@ -5,8 +5,8 @@ use crate::control::Control;
 use crate::display::{format, units, words};
 use crate::effects::{Kind, Source};
 use crate::exchange::Project;
-use crate::measurement::Quantity;
-use crate::response::harmonic_balance::{Excitation, ForwardModel, SweepSettings, sweep};
+use crate::measurement::{ChannelFit, Quantity};
+use crate::response::harmonic_balance::{Excitation, ForwardModel, HarmonicForce, SweepSettings, sweep};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -107,7 +107,7 @@ fn drawn(p: &Project, run: usize, near: &[usize]) -> Vec<f64> {
 /// # Errors
 /// One line: no force, no matrices, no periodic response at any level.
 pub(crate) fn curves(p: &Project, effects: &[Source], run: usize, control: &Control) -> Result<Vec<Curve>, String> {
-    let (dof, _) = force(p, run).ok_or("the run has no force channel")?;
+    force(p, run).ok_or("the run has no force channel")?;
     let (near, range) = neighbourhood(p, run).ok_or("there is no such run")?;
     let acts = |s: &&Source| !matches!(s.effect.kind(), Kind::Channel(_));
     let known = p.sources.iter().filter(|s| s.state == crate::effects::State::Known);
@@ -116,7 +116,7 @@ pub(crate) fn curves(p: &Project, effects: &[Source], run: usize, control: &Cont
     let mut found = Vec::new();
     let mut fault = "no run near it has a force".to_owned();
     for level in drawn(p, run, &near) {
-        match one_level(p, &model, run, (dof, level), range, control) {
+        match one_level(p, &model, run, level, range, control) {
             Ok(curve) => found.push(curve),
             Err(error) => fault = error,
         }
@@ -124,22 +124,35 @@ pub(crate) fn curves(p: &Project, effects: &[Source], run: usize, control: &Cont
     if found.is_empty() { Err(fault) } else { Ok(found) }
 }
 
-/// The response under a force of amplitude `level` (N) at a DOF.
+/// The forces of a run in proportion, the first of them real and of this amplitude, N: a moving base loads every DOF.
+fn excitation(p: &Project, run: usize, level: f64, omega: f64) -> Excitation {
+    let forces = || p.runs[run].fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Force);
+    let fundamental = |c: &ChannelFit| c.amplitudes.first().copied().unwrap_or_default();
+    let first = forces().next().map_or_else(|| c64::new(1.0, 0.0), fundamental);
+    let harmonic = |c: &ChannelFit| HarmonicForce {
+        dof: c.channel.dof,
+        mean: 0.0,
+        harmonics: vec![level * fundamental(c) / first],
+    };
+    Excitation { omega, forces: forces().map(harmonic).collect() }
+}
+
+/// The response under the forces of a run with `level` (N) of the first of them.
 fn one_level(
     p: &Project,
     model: &ForwardModel,
     run: usize,
-    (dof, level): (usize, f64),
+    level: f64,
     range: [f64; 2],
     control: &Control,
 ) -> Result<Curve, String> {
-    let excitation = Excitation::sine(TAU * range[0], dof, c64::new(level, 0.0));
+    let excitation = excitation(p, run, level, TAU * range[0]);
     let found = sweep(model, &excitation, range.map(|f| TAU * f), &SETTINGS, control).map_err(|e| e.to_string())?;
     let channels = &p.runs[run].fit.channels;
     let point = |point: &crate::response::harmonic_balance::SweepPoint| {
         let w = point.response.omega;
         let turn = c64::new(0.0, w);
-        let ratio = |c: &crate::measurement::ChannelFit| {
+        let ratio = |c: &ChannelFit| {
             let order = c.channel.quantity.derivatives().unwrap_or(0);
             turn.powi(order) * point.response.amplitude(c.channel.dof, 1) / level
         };

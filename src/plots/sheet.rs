@@ -11,6 +11,11 @@ const LEFT: f32 = 66.0;
 const RIGHT: f32 = 18.0;
 const TOP: f32 = 40.0;
 const BOTTOM: f32 = 46.0;
+/// A row of keys; the mark of a key with the room before its words, a letter of them at most, the room to the next key.
+const KEY_ROW: f32 = 15.0;
+const KEY: f32 = 22.0;
+const LETTER: f32 = 6.2;
+const BETWEEN: f32 = 18.0;
 
 /// A plot with what is in sight of it: places of x and of y.
 #[derive(Debug, Clone)]
@@ -64,16 +69,23 @@ impl Sheet {
         let rows = self.panels.len().div_ceil(columns).max(1);
         let room = Rect::from_min_max(pos2(0.0, 34.0), size.to_pos2());
         let cell = vec2(room.width() / columns as f32, room.height() / rows as f32);
-        for (k, panel) in self.panels.iter().enumerate() {
-            let corner = room.min + vec2((k % columns) as f32 * cell.x, (k / columns) as f32 * cell.y);
-            let outer = Rect::from_min_size(corner, cell);
-            panel.fitted(inner(outer)).draw(&mut drawing, outer, palette);
+        let keys = |panel: &Panel| panel.keys(cell.x).len().saturating_sub(1) as f32 * KEY_ROW;
+        for (row, panels) in self.panels.chunks(columns).enumerate() {
+            // Plots beside each other are of one height, whatever their keys need.
+            let keys = panels.iter().map(keys).fold(0.0, f32::max);
+            for (column, panel) in panels.iter().enumerate() {
+                let corner = room.min + vec2(column as f32 * cell.x, row as f32 * cell.y);
+                let outer = Rect::from_min_size(corner, cell);
+                let mut area = inner(outer);
+                area.min.y += keys;
+                panel.fitted(area).draw(&mut drawing, outer, area, palette);
+            }
         }
         drawing
     }
 }
 
-/// The area of the curves within the area of a plot with its rulers.
+/// The area of the curves within the area of a plot with its rulers, below one row of keys.
 pub(crate) fn inner(outer: Rect) -> Rect {
     Rect::from_min_max(outer.min + vec2(LEFT, TOP), outer.max - vec2(RIGHT, BOTTOM))
 }
@@ -108,8 +120,7 @@ impl Panel {
         Some(((self.figure.y.place(y)? - low) / (high - low)) as f32)
     }
 
-    fn draw(&self, drawing: &mut Drawing, outer: Rect, palette: &Palette) {
-        let area = inner(outer);
+    fn draw(&self, drawing: &mut Drawing, outer: Rect, area: Rect, palette: &Palette) {
         self.head(drawing, outer, palette);
         self.grid(drawing, area, palette);
         drawing.marks.push(Mark::Inside(area, self.figure.title.clone()));
@@ -128,21 +139,42 @@ impl Panel {
     /// Title and key above the curves.
     fn head(&self, drawing: &mut Drawing, outer: Rect, palette: &Palette) {
         let y = outer.top() + 24.0;
-        let mut x = outer.left() + LEFT;
+        let x = outer.left() + LEFT;
         // A plot alone bears its name already as that of the sheet.
         if self.figure.title != drawing.title {
             drawing.words(pos2(x, y - 16.0), Align2::LEFT_CENTER, self.figure.title.clone(), size::BODY, palette.ink);
         }
-        let mut seen: Vec<&str> = vec![""];
+        for (row, keys) in self.keys(outer.width()).into_iter().enumerate() {
+            let y = y + row as f32 * KEY_ROW;
+            for (from, series) in keys {
+                key(drawing, series, pos2(x + from, y));
+                let at = pos2(x + from + KEY, y);
+                drawing.words(at, Align2::LEFT_CENTER, series.name.clone(), size::SMALL, palette.weak);
+            }
+        }
+    }
+
+    /// Series with names, each name once, in rows of a plot of this width with its rulers; with the place in the row.
+    fn keys(&self, width: f32) -> Vec<Vec<(f32, &Series)>> {
+        let room = width - LEFT - RIGHT;
+        let mut rows: Vec<Vec<(f32, &Series)>> = vec![Vec::new()];
+        let (mut x, mut seen) = (0.0, vec![""]);
         for series in &self.figure.series {
             if seen.contains(&series.name.as_str()) {
                 continue;
             }
             seen.push(&series.name);
-            key(drawing, series, pos2(x, y));
-            drawing.words(pos2(x + 22.0, y), Align2::LEFT_CENTER, series.name.clone(), size::SMALL, palette.weak);
-            x += 40.0 + 6.2 * series.name.chars().count() as f32;
+            let words = LETTER * series.name.chars().count() as f32;
+            if x > 0.0 && x + KEY + words > room {
+                rows.push(Vec::new());
+                x = 0.0;
+            }
+            if let Some(row) = rows.last_mut() {
+                row.push((x, series));
+            }
+            x += KEY + words + BETWEEN;
         }
+        rows
     }
 
     fn grid(&self, drawing: &mut Drawing, area: Rect, palette: &Palette) {
@@ -239,5 +271,27 @@ fn key(drawing: &mut Drawing, series: &Series, at: Pos2) {
             drawing.marks.push(Mark::Line { points: vec![at, at + vec2(16.0, 0.0)], stroke, dashed: true });
         }
         _ => drawing.line([at, at + vec2(16.0, 0.0)], Stroke::new(2.0, series.colour)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plots::figure::Axis;
+
+    /// Keys that are too many for the width of their plot go on in another row; a name that stands twice has one key.
+    #[test]
+    fn keys_stay_within_their_plot() {
+        let names = ["identified", "viscous dashpot", "9.69 s", "6.50 s", "7.17 s", "identified", ""];
+        let empty = Figure::new("Missing force", Axis::new("Displacement", "m"), Axis::new("Force", "N"));
+        let add = |figure: Figure, name: &str| figure.points(name, Color32::BLACK, Look::Line(1.0), Vec::new());
+        let figure = names.iter().fold(empty, |figure, name| add(figure, name));
+        let panel = Panel { figure, bounds: [[0.0, 1.0]; 2] };
+        for (width, rows) in [(900.0, 1), (450.0, 2), (200.0, 5)] {
+            let keys = panel.keys(width);
+            assert_eq!((keys.len(), keys.iter().flatten().count()), (rows, 5), "{width}");
+            let ends = keys.iter().flatten().map(|(x, s)| x + KEY + LETTER * s.name.len() as f32);
+            assert!(ends.fold(0.0, f32::max) <= width - LEFT - RIGHT, "{width}");
+        }
     }
 }

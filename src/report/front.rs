@@ -53,9 +53,9 @@ fn summary(content: &Content<'_>) -> String {
     let p = content.project;
     let used = p.runs.iter().filter(|r| r.enabled).count() + p.transient_runs.iter().filter(|r| r.enabled).count();
     let mut said = vec![format!(
-        "{} with {} degrees of freedom, {} used.",
+        "{} with {} of freedom, {} used.",
         words::capital(words::kind(p.structure.kind())),
-        p.structure.len(),
+        words::counted(p.structure.len(), "degree"),
         words::counted(used, "measurement"),
     )];
     said.extend(content.outcome.as_ref().ok().map(|outcome| identified(content, outcome)));

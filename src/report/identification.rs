@@ -6,6 +6,7 @@ use super::page::Page;
 use super::section::Section;
 use crate::control::Control;
 use crate::display::{format, words};
+use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::identify::results::ModeResult;
@@ -23,15 +24,27 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
     page.chapter(Section::Energy, "Where the energy is lost");
     match &content.outcome {
         Ok(outcome) => {
-            figure(page, energy::figure(Palette::light(), p, outcome, outcome.accepted));
+            // The energies of records over time are those of windows, not of periods and runs.
+            if !outcome.runs.is_empty() {
+                figure(page, energy::figure(Palette::light(), p, outcome, outcome.accepted));
+            }
             identified(page, p, outcome);
             ratios(page, outcome);
+        }
+        Err(_) if states_all(p) => {
+            page.sentence("No source was identified: the project states all of its sources with their sizes.");
         }
         Err(reason) => {
             page.sentence(&format!("No sources were identified: {reason}."));
         }
     }
     responses(page, content, control);
+}
+
+/// Whether a project states what dissipates and leaves none of it to be identified.
+fn states_all(p: &Project) -> bool {
+    let open = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
+    p.sources.iter().any(|s| s.state == State::Known) && !p.sources.iter().any(open)
 }
 
 fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {

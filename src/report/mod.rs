@@ -105,9 +105,9 @@ fn parts(content: &Content<'_>, request: &Request, control: &Control) -> Vec<Par
 fn structure(page: &mut Page, p: &Project) {
     page.chapter(Section::Structure, "Structure");
     page.sentence(&format!(
-        "{}, {} degrees of freedom.",
+        "{}, {} of freedom.",
         words::capital(words::kind(p.structure.kind())),
-        p.structure.len()
+        words::counted(p.structure.len(), "degree")
     ));
     if let Ok(modes) = p.structure.modes() {
         let row = |r: usize| vec![(r + 1).to_string(), format::with_unit(modes.frequency_hz(r), "Hz")];

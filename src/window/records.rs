@@ -42,7 +42,7 @@ impl Records {
     /// The runs of a state of the document in the order of its file, as far as their records were read.
     pub(crate) fn runs(&self, state: &State) -> Vec<Run> {
         let (file, on) = (state.file(), common(state));
-        let recorded = file.run.iter().filter(|table| table.kind.is_steady()).filter_map(|table| {
+        let recorded = file.run.iter().filter(|table| file.is_steady(table.kind)).filter_map(|table| {
             let mut run = self.kept.get(&run_key(table, on))?.first()?.clone();
             (run.enabled, run.insisted) = (table.enabled != Some(false), table.enabled == Some(true));
             (run.level, run.session) = (table.level, table.session.clone());
@@ -56,7 +56,7 @@ impl Records {
     /// The decays and transients of a state of the document, as far as they were read.
     pub(crate) fn transient_runs(&self, state: &State) -> Vec<TransientRun> {
         let (file, on) = (state.file(), common(state));
-        let unsteady = file.run.iter().filter(|table| !table.kind.is_steady());
+        let unsteady = file.run.iter().filter(|table| !file.is_steady(table.kind));
         let run = |table: &RunTable| {
             let mut run = self.unsteady.get(&unsteady_key(table, on))?.clone();
             (run.enabled, run.level, run.session) = (table.enabled != Some(false), table.level, table.session.clone());
@@ -68,10 +68,10 @@ impl Records {
     /// What a state of the document needs and is not read yet.
     pub(crate) fn missing(&self, state: &State) -> Option<Missing> {
         let (file, on) = (state.file(), common(state));
-        let steady = file.run.iter().enumerate().filter(|(_, table)| table.kind.is_steady());
+        let steady = file.run.iter().enumerate().filter(|(_, table)| file.is_steady(table.kind));
         let runs: Vec<(usize, Key)> = steady.map(|(k, table)| (k, run_key(table, on))).collect();
         let runs: Vec<(usize, Key)> = runs.into_iter().filter(|(_, key)| !self.kept.contains_key(key)).collect();
-        let unsteady = file.run.iter().enumerate().filter(|(_, table)| !table.kind.is_steady());
+        let unsteady = file.run.iter().enumerate().filter(|(_, table)| !file.is_steady(table.kind));
         let unsteady: Vec<(usize, Key)> = unsteady.map(|(k, table)| (k, unsteady_key(table, on))).collect();
         let unsteady: Vec<(usize, Key)> =
             unsteady.into_iter().filter(|(_, key)| !self.unsteady.contains_key(key)).collect();

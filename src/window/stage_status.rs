@@ -33,6 +33,7 @@ impl App {
             Stage::Structure if p.structure.matrices().is_none() => {
                 StageStatus::done("Points: energy balance only, no model.")
             }
+            Stage::Structure if p.structure.len() == 1 => StageStatus::done("1 degree of freedom."),
             Stage::Structure => StageStatus::done(&format!("{} degrees of freedom.", p.structure.len())),
             Stage::Pattern => {
                 let open = p.sources.iter().filter(|s| matches!(s.state, State::Candidate | State::Forced)).count();

@@ -94,7 +94,7 @@ fn single_laws_stand_behind_the_sum_by_what_they_predict() {
     let [first, second] = [&diagnosis.suggestions[0], &diagnosis.suggestions[1]];
     let in_sum = |s: &Suggestion| s.evidence.iter().any(|words| words.contains("in a sum with"));
     assert!(in_sum(first) && in_sum(second), "{:?}", first.evidence);
-    assert!(first.probability > 0.5 && second.probability > 0.5);
+    assert!(first.probability >= second.probability && second.probability > 0.5, "the surest law of the sum first");
     // Single laws stand behind it, and predict the left-out loops clearly worse.
     let singles: Vec<&Suggestion> = diagnosis.suggestions[2..].iter().filter(|s| !in_sum(s)).collect();
     assert!(!singles.is_empty(), "{:?}", diagnosis.suggestions);

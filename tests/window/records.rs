@@ -50,6 +50,18 @@ fn compared<'a>(sample: &Sample) -> Harness<'a, App> {
     harness
 }
 
+/// Loops of a component are no steady states, whatever they are called: they are searched as on the command line.
+#[test]
+fn loops_of_a_component_are_searched_as_loops() {
+    let sample = sample("damper-loops");
+    let mut harness = open(&sample, Theme::Light);
+    let project = &harness.state().document.as_ref().unwrap().project;
+    assert_eq!([project.runs.len(), project.transient_runs.len()], [0, 6]);
+    assert!(project.transient_runs.iter().all(|run| run.findings.is_empty()));
+    explain(&mut harness);
+    assert!(harness.query_all_by_label_contains("Best guess: elastic slider at DOF 1").next().is_some());
+}
+
 #[test]
 fn a_decay_is_drawn_as_it_was_compared() {
     let sample = sample("decay-friction");

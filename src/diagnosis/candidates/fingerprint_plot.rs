@@ -16,7 +16,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, SEARCH};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::Updating;
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Effect, Kind, Place, Source};
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -171,7 +171,7 @@ fn of_channel(
     if ratios.is_empty() {
         return Ok(None);
     }
-    let delay = effect == Effect::Delay;
+    let delay = matches!(effect.kind(), Kind::Channel(law) if law.turns_phase());
     let degrees = |z: c64| z.im.atan2(z.re).to_degrees();
     let point = |&(run, x, z, deviation): &(usize, f64, c64, f64)| {
         let (y, deviation) = if delay { (degrees(z), deviation.to_degrees()) } else { (z.norm(), deviation) };

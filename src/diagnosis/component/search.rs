@@ -180,6 +180,9 @@ impl Search<'_> {
                 });
             }
         }
+        // The laws of the best fit, the surest first.
+        let first = ranked.first().map_or(0, |best| best.fit.effects.len()).min(list.len());
+        list[..first].sort_by(|a, b| b.probability.total_cmp(&a.probability));
         Ok(list)
     }
 

@@ -15,7 +15,7 @@ use crate::diagnosis::points::balance::{Balance, Column, Fitted};
 use crate::diagnosis::points::uncertainty::Multiples;
 use crate::diagnosis::residual::data::{DiagnosisError, Problem};
 use crate::diagnosis::result::{Added, Diagnosis};
-use crate::effects::{Effect, Source};
+use crate::effects::{Kind, Source};
 use crate::math::statistics::{bayesian_information, sum_of_squares};
 use std::sync::OnceLock;
 
@@ -243,5 +243,8 @@ fn ranked(balance: &Balance, unfitted: &[Vec<Source>], control: &Control) -> Vec
 
 /// Whether an error of a channel is one that channels have: a gain that makes all energy vanish explains anything.
 fn is_bounded(added: &Added) -> bool {
-    added.source.effect != Effect::Gain || (GAINS[0]..=GAINS[1]).contains(&added.source.parameters[0])
+    match added.source.effect.kind() {
+        Kind::Channel(law) => law.turns_phase() || (GAINS[0]..=GAINS[1]).contains(&added.source.parameters[0]),
+        _ => true,
+    }
 }

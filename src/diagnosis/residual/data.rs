@@ -1,7 +1,7 @@
 //! What the comparison is made on: the runs that may be used, their forces and responses, harmonic by harmonic.
 
 use crate::control::Cancelled;
-use crate::effects::{Effect, Kind, Place, Source, source::State};
+use crate::effects::{Constant, Kind, Place, Source, source::State};
 use crate::measurement::{ChannelFit, Quantity, Run};
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, ModelError, ResponseError};
 use crate::structure::{Part, Structure};
@@ -244,7 +244,8 @@ impl Data {
     pub fn allows(&self, source: &Source) -> bool {
         let told = source.effect.is_linear() || !self.per_unit_force;
         let turns = |dofs: &[usize]| dofs.iter().any(|dof| self.rotations.contains(dof));
-        let only_turns = source.effect == Effect::Mass && matches!(&source.place, Place::Dofs(dofs) if turns(dofs));
+        let only_turns =
+            source.effect.adds_to(Constant::Mass) && matches!(&source.place, Place::Dofs(dofs) if turns(dofs));
         told && !only_turns
             && source.parameters.len() <= self.runs.len()
             && !self.excluded.iter().any(|other| other.is_same(source))
@@ -252,14 +253,14 @@ impl Data {
 
     /// Whether a correction of that part of the structure would be an effect that is ruled out, by another name.
     pub fn is_ruled_out(&self, part: Part) -> bool {
-        let (effect, dofs) = match part {
-            Part::PointMass(dof) => (Effect::Mass, vec![dof]),
-            Part::GroundSpring(dof) => (Effect::Stiffness, vec![dof]),
-            Part::Coupling(pair) => (Effect::Stiffness, pair.to_vec()),
+        let (constant, dofs) = match part {
+            Part::PointMass(dof) => (Constant::Mass, vec![dof]),
+            Part::GroundSpring(dof) => (Constant::Stiffness, vec![dof]),
+            Part::Coupling(pair) => (Constant::Stiffness, pair.to_vec()),
             _ => return false,
         };
         let place = Place::Dofs(dofs);
-        self.excluded.iter().any(|source| source.effect == effect && source.place.is_same(&place))
+        self.excluded.iter().any(|source| source.effect.adds_to(constant) && source.place.is_same(&place))
     }
 
     /// Names of all response channels and of all force channels, each once.

@@ -10,7 +10,7 @@ use crate::diagnosis::selection::found::same_set;
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::search::joined;
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::{Effect, Kind, Place, Source, State};
+use crate::effects::{Effect, Place, Source, State, WholeLaw};
 use std::sync::Arc;
 
 /// Of these, sets that are fitted with all harmonics that matter.
@@ -76,17 +76,15 @@ impl ReferenceModel<'_> {
     pub(crate) fn whole(&self, from: Option<&FittedModel>, steps: usize) -> Result<Vec<FittedModel>, DiagnosisError> {
         let effects = from.map_or(&[][..], |fit| &fit.effects);
         let omega = self.data.runs.iter().map(|r| r.omega.ln()).sum::<f64>() / self.data.runs.len() as f64;
-        let light = |effect: Effect| {
-            let unit = match effect {
-                Effect::StiffnessProportional => (-omega).exp(),
-                Effect::MassProportional => omega.exp(),
-                _ => 1.0,
-            };
+        let omega = omega.exp();
+        let light = |(effect, law): (Effect, &dyn WholeLaw)| {
+            // The same share of the force of the springs at the mean frequency, whatever the law multiplies.
+            let square = omega * omega;
+            let unit = square / (law.basis().of_mode(square) * law.factor(1.0, omega).norm());
             Source { effect, place: Place::Whole(None), state: State::Known, parameters: vec![3e-3 * unit] }
         };
-        let whole = Effect::ALL.into_iter().filter(|e| matches!(e.kind(), Kind::Whole(_)));
-        let sets: Vec<Vec<Source>> = whole
-            .filter(|&effect| !effects.iter().any(|e| e.effect == effect))
+        let sets: Vec<Vec<Source>> = Effect::of_whole_structures()
+            .filter(|(effect, _)| !effects.iter().any(|e| e.effect == *effect))
             .map(light)
             .filter(|source| self.data.allows(source))
             .map(|source| joined(effects, &[source]))

@@ -17,7 +17,7 @@ use crate::diagnosis::selection::settled::SETTLED;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::diagnosis::updating::scales::Scales;
-use crate::effects::{Effect, Range, Source};
+use crate::effects::{Constant, Range, Source};
 use crate::math::bootstrap::probabilities;
 use crate::structure::Part;
 
@@ -338,7 +338,7 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
             UpdatingParameter::Structure(other) => *other == part || is_reverse(*other, part),
             _ => false,
         });
-        (updated || source.effect == Effect::Mass)
+        (updated || source.effect.adds_to(Constant::Mass))
             && is_within_part(reference.predictor.structure(), source, part, OF_THE_PART)
     };
     !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().any(within)

@@ -2,17 +2,17 @@
 //! wanted than models are wrong by, is a correction and no missing effect.
 
 use super::parameters::{Updating, UpdatingParameter};
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Constant, Place, Source};
 use crate::structure::share::{Share, Triplets};
 use crate::structure::{Part, Structure};
 
 /// The part of a structure that an added spring or mass would change; none of other effects.
 pub(crate) fn part_of(source: &Source) -> Option<Part> {
     let Place::Dofs(dofs) = &source.place else { return None };
-    match (source.effect, dofs.as_slice()) {
-        (Effect::Mass, [dof]) => Some(Part::PointMass(*dof)),
-        (Effect::Stiffness, [dof]) => Some(Part::GroundSpring(*dof)),
-        (Effect::Stiffness, [first, second]) => Some(Part::Coupling([*first, *second])),
+    match (source.effect.constant()?, dofs.as_slice()) {
+        (Constant::Mass, [dof]) => Some(Part::PointMass(*dof)),
+        (Constant::Stiffness, [dof]) => Some(Part::GroundSpring(*dof)),
+        (Constant::Stiffness, [first, second]) => Some(Part::Coupling([*first, *second])),
         _ => None,
     }
 }
@@ -72,9 +72,9 @@ impl Updating {
         };
         let along = |list: &Triplets| list.iter().map(|(i, j, v)| weight(*i) * weight(*j) * v).sum::<f64>();
         let of = |parameter: &UpdatingParameter| match parameter {
-            UpdatingParameter::Structure(part) => structure
-                .share(*part)
-                .map_or(0.0, |share| along(if source.effect == Effect::Mass { &share.mass } else { &share.stiffness })),
+            UpdatingParameter::Structure(part) => structure.share(*part).map_or(0.0, |share| {
+                along(if source.effect.adds_to(Constant::Mass) { &share.mass } else { &share.stiffness })
+            }),
             _ => 0.0,
         };
         Some(self.parameters.iter().map(of).collect())
@@ -85,6 +85,7 @@ impl Updating {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::effects::Effect;
     use crate::structure::chain::ChainParameters;
 
     #[test]

@@ -371,4 +371,10 @@ impl ProjectFile {
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
+
+    /// Whether runs of this kind are fitted as steady states; loops of a component are compared as they are, whatever they
+    /// are called.
+    pub fn is_steady(&self, kind: Kind) -> bool {
+        kind.is_steady() && !matches!(self.structure.shape, Shape::Component(_))
+    }
 }

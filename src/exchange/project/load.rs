@@ -8,7 +8,7 @@ use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::ChannelCorrection;
-use crate::measurement::{Channel, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
+use crate::measurement::{Channel, Flag, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use crate::structure::StructureKind;
 use std::path::Path;
 use std::sync::Arc;
@@ -63,14 +63,10 @@ impl Plan {
         for index in 0..self.runs.len() {
             control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
             let piece = control.piece(index, self.runs.len());
-            // Loops of a component are compared as they are: no steady state is fitted to them.
-            let kind = match self.structure.kind() {
-                StructureKind::Component => Kind::Transient,
-                _ => self.runs[index].kind,
-            };
-            match kind {
-                Kind::Steady => runs.push(self.run(index, &piece)?),
-                Kind::Decay | Kind::Transient => transient_runs.push(self.transient_run(index, &piece)?),
+            if self.file.is_steady(self.runs[index].kind) {
+                runs.push(self.run(index, &piece)?);
+            } else {
+                transient_runs.push(self.transient_run(index, &piece)?);
             }
             piece.report(1.0);
         }
@@ -124,12 +120,15 @@ impl Plan {
             enabled: planned.enabled,
             exponential_window_s: planned.exponential_window_s,
         };
-        let run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref())).map_err(
-            |error| {
+        let mut run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref()))
+            .map_err(|error| {
                 let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
                 self.run_error(index, key, Problem::Transient { file: planned.name(), error })
-            },
-        )?;
+            })?;
+        if self.structure.kind() == StructureKind::Component {
+            // A testing machine may move it in any way.
+            run.findings.retain(|finding| finding.flag != Flag::OtherKind);
+        }
         self.in_time_on_its_base(index, run)
     }
 

@@ -86,10 +86,13 @@ impl Face {
         for c in word.chars() {
             let mut longer = pieces.last().cloned().unwrap_or_default();
             longer.push(c);
+            pieces.pop();
             if self.width(&longer, size) > room && longer.chars().count() > 1 {
-                pieces.push(c.to_string());
+                // The path of a file is broken between its folders.
+                let folders = longer.rfind('/').map(|at| at + 1).filter(|end| *end < longer.len());
+                let rest = longer.split_off(folders.unwrap_or(longer.len() - c.len_utf8()));
+                pieces.extend([longer, rest]);
             } else {
-                pieces.pop();
                 pieces.push(longer);
             }
         }

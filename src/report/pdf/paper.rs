@@ -157,7 +157,7 @@ impl<'a> Paper<'a> {
         self.at += 8.0;
     }
 
-    /// Widths of the columns: as wide as they want; where that is too much, the wide ones share what is left.
+    /// Widths of the columns: as wide as they want; where that is too much, the widest share what the others leave.
     fn columns(&self, names: &[String], rows: &[Vec<String>]) -> Vec<f32> {
         let n = names.len();
         let wanted = |k: usize| {
@@ -166,13 +166,7 @@ impl<'a> Paper<'a> {
         };
         let wanted: Vec<f32> = (0..n).map(wanted).collect();
         let room = ROOM - GAP * n.saturating_sub(1) as f32;
-        if wanted.iter().sum::<f32>() <= room {
-            return wanted;
-        }
-        let fair = room / n.max(1) as f32;
-        let narrow: f32 = wanted.iter().filter(|w| **w <= fair).sum();
-        let wide: f32 = wanted.iter().filter(|w| **w > fair).sum();
-        wanted.iter().map(|&w| if w <= fair { w } else { w * (room - narrow) / wide }).collect()
+        shared(&wanted, room)
     }
 
     fn row(&mut self, cells: &[String], widths: &[f32], right: &[bool], colour: Color32) {
@@ -192,6 +186,23 @@ impl<'a> Paper<'a> {
     }
 }
 
+/// As much of `room` for each as it wants; where that is too much, those that want more than an even share of what the
+/// others leave have such a share each.
+fn shared(wanted: &[f32], room: f32) -> Vec<f32> {
+    let mut sorted = wanted.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    let (mut left, mut most) = (room, f32::INFINITY);
+    for (k, width) in sorted.iter().enumerate() {
+        let even = left / (sorted.len() - k) as f32;
+        if *width > even {
+            most = even;
+            break;
+        }
+        left -= width;
+    }
+    wanted.iter().map(|width| width.min(most)).collect()
+}
+
 /// Writes the title and its number at the foot of every page.
 pub(super) fn footers(face: &Face, title: &str, pages: &mut [Content]) {
     let count = pages.len();
@@ -209,4 +220,17 @@ pub(super) fn footers(face: &Face, title: &str, pages: &mut [Content]) {
 /// How much a drawing is made smaller to fit the page.
 fn scale(drawing: &Drawing) -> f32 {
     (ROOM / drawing.size.x).min(FIGURE / drawing.size.y).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shared;
+
+    /// Narrow columns keep what they want, and a few wide ones do not take it from one that is little wider than the mean.
+    #[test]
+    fn the_widest_columns_share_what_the_others_leave() {
+        assert_eq!(shared(&[10.0, 80.0, 20.0], 200.0), [10.0, 80.0, 20.0]);
+        assert_eq!(shared(&[10.0, 80.0, 500.0, 20.0], 200.0), [10.0, 80.0, 90.0, 20.0]);
+        assert_eq!(shared(&[300.0, 500.0], 200.0), [100.0, 100.0]);
+    }
 }

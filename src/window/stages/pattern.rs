@@ -13,7 +13,10 @@ use crate::window::theme::{self, size, space};
 use crate::window::view::View;
 use crate::window::widgets::UiExt;
 use egui::text::{Galley, LayoutJob};
-use egui::{Align, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align, Frame, Margin, Panel, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
 use egui_extras::{Column, TableBuilder};
 use std::sync::Arc;
 
@@ -23,8 +26,8 @@ const TILE: f32 = 60.0;
 const SYMBOL: f32 = 34.0;
 const LEAST_TILE: f32 = 94.0;
 const BETWEEN: f32 = 5.0;
-/// Width from which on the families stand in one row, points.
-const ONE_ROW: f32 = 460.0;
+/// Least height of the palette, points.
+const LEAST_PALETTE: f32 = 80.0;
 
 /// The palette of laws and the families of places.
 pub(crate) fn laws(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
@@ -39,36 +42,65 @@ pub(crate) fn sources(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<
 }
 
 fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
-    let families = if ui.available_width() < ONE_ROW { 78.0 } else { 44.0 };
-    let height = (ui.available_height() - families).max(80.0);
+    // As high as its buttons need on one row or on two; the tiles have the rest.
+    let frame = Frame::new().inner_margin(Margin { top: 2 * space::XS as i8, ..Margin::ZERO });
+    Panel::bottom("families").frame(frame).show_separator_line(false).show(ui, |ui| families(ui, *law, asks));
+    // A bar for scrolling stands at the right.
+    let room = ui.available_width() - space::S;
+    let columns = ((room + BETWEEN) / (LEAST_TILE + BETWEEN)).floor().max(1.0);
+    let width = (room - BETWEEN * (columns - 1.0)) / columns - 0.5;
+    let rows = rows(ui, columns as usize, width);
+    let height = whole_rows(rows.iter().map(|row| row.height), ui.available_height());
     ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
-        // A bar for scrolling stands at the right.
-        let room = ui.available_width() - space::S;
-        let columns = ((room + BETWEEN) / (LEAST_TILE + BETWEEN)).floor().max(1.0);
-        let width = (room - BETWEEN * (columns - 1.0)) / columns - 0.5;
         ui.spacing_mut().item_spacing = vec2(BETWEEN, BETWEEN);
-        let effects: Vec<Effect> = Effect::ALL.into_iter().filter(|e| !matches!(e.kind(), Kind::Channel(_))).collect();
-        for row in effects.chunks(columns as usize) {
-            let names: Vec<Arc<Galley>> = row.iter().map(|&effect| law_name(ui, effect, width)).collect();
-            // A row is as high as its longest name wants.
-            let words = names.iter().map(|n| n.size().y).fold(0.0, f32::max);
-            let height = TILE.max(SYMBOL + words);
+        for row in rows {
             ui.horizontal(|ui| {
-                for (&effect, name) in row.iter().zip(names) {
-                    if tile(ui, effect, effect == *law, name, vec2(width, height)) {
+                for (effect, name) in row.laws {
+                    if tile(ui, effect, effect == *law, name, vec2(width, row.height)) {
                         *law = effect;
                     }
                 }
             });
         }
     });
-    ui.add_space(space::XS);
+}
+
+/// Laws beside one another in the palette.
+struct Row {
+    /// With their names as they are laid out.
+    laws: Vec<(Effect, Arc<Galley>)>,
+    /// As high as its longest name wants, points.
+    height: f32,
+}
+
+/// All laws that may be drawn, so many a row, on tiles of this width.
+fn rows(ui: &Ui, columns: usize, width: f32) -> Vec<Row> {
+    let effects: Vec<Effect> = Effect::ALL.into_iter().filter(|e| !e.is_of_channel()).collect();
+    let row = |effects: &[Effect]| {
+        let laws: Vec<_> = effects.iter().map(|&effect| (effect, law_name(ui, effect, width))).collect();
+        let words = laws.iter().map(|(_, name)| name.size().y).fold(0.0, f32::max);
+        Row { laws, height: TILE.max(SYMBOL + words) }
+    };
+    effects.chunks(columns).map(row).collect()
+}
+
+/// Height of as many rows as are whole in `room`, so that none is cut off before one scrolls.
+fn whole_rows(heights: impl Iterator<Item = f32>, room: f32) -> f32 {
+    let ends = heights.scan(-BETWEEN, |end, height| {
+        *end += BETWEEN + height;
+        Some(*end)
+    });
+    ends.take_while(|end| *end <= room).last().unwrap_or(room.max(LEAST_PALETTE))
+}
+
+/// The buttons that add a law at many places at once.
+fn families(ui: &mut Ui, law: Effect, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let weak = ui.palette().weak;
         ui.label(RichText::new(t!("Add at")).color(weak));
         if matches!(law.kind(), Kind::Whole(_)) {
             if ui.button(t!("Whole structure")).clicked() {
-                asks.push(Ask::Edit(Edit::DrawWhole(*law)));
+                asks.push(Ask::Edit(Edit::DrawWhole(law)));
             }
             return;
         }
@@ -79,7 +111,7 @@ fn palette(ui: &mut Ui, law: &mut Effect, asks: &mut Vec<Ask>) {
             (Family::Chain, "One chain"),
         ] {
             if ui.button(tr(label)).clicked() {
-                asks.push(Ask::Edit(Edit::DrawFamily(*law, family)));
+                asks.push(Ask::Edit(Edit::DrawFamily(law, family)));
             }
         }
     });

@@ -138,7 +138,12 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
     let room = ui.available_width() - fixed - 5.0 * ui.spacing().item_spacing.x;
     let lines: Vec<[Arc<Galley>; 2]> = outcome.steps.iter().map(|step| step_words(ui, p, step, room)).collect();
     let heights = lines.iter().map(|[a, b]| space::ROW.max(a.size().y + b.size().y + 8.0)).collect::<Vec<_>>();
-    TableBuilder::new(ui)
+    let moved = is_new(ui, (current, outcome.steps.len()));
+    let mut table = TableBuilder::new(ui);
+    if moved {
+        table = table.scroll_to_row(current, None).animate_scrolling(false);
+    }
+    table
         .id_salt("steps")
         .striped(true)
         .sense(Sense::click())
@@ -170,6 +175,16 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
                 }
             });
         });
+}
+
+/// Whether another step of as many is looked at than in the frame before: it is brought into sight, and scrolled away at will.
+fn is_new(ui: &Ui, step: (usize, usize)) -> bool {
+    let id = ui.scope_id().with("step in sight");
+    ui.data_mut(|data| {
+        let before: Option<(usize, usize)> = data.get_temp(id);
+        data.insert_temp(id, step);
+        before != Some(step)
+    })
 }
 
 /// The sources of a step and their coefficients, folded into `room` points.
