@@ -14,7 +14,7 @@ use serde::Serialize;
 pub(crate) const KNOWN: f64 = 0.2;
 const GAINS: f64 = 0.01;
 const LARGE_GAINS: f64 = 0.03;
-const DRIFT: f64 = 0.0005;
+pub(crate) const DRIFT: f64 = 0.0005;
 const FORCE_LEVEL: f64 = 0.003;
 
 /// Factors from what the project states to what is true.

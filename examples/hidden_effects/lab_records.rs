@@ -1,8 +1,9 @@
 //! Decays, hammer tests, sweeps and noise as laboratories record them: a model that is 1 to 3 % off, force and sensors with
-//! gains that nobody knows, a pre-trigger, decays that begin long after whatever set them off, and often no sensor where the
-//! effect acts. A quarter of the projects lacks nothing. The records come from stepping the true structure through time.
+//! gains that nobody knows, natural frequencies that scatter from record to record, a pre-trigger, decays that begin long
+//! after whatever set them off, and often no sensor where the effect acts. A quarter of the projects lacks nothing. The
+//! records come from stepping the true structure through time.
 
-use super::errors::{Truth, factor, perturbed};
+use super::errors::{DRIFT, Truth, factor, perturbed};
 use super::files::{Written, document};
 use super::random::Random;
 use super::specimen::Specimen;
@@ -11,7 +12,7 @@ use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, Quantity, Record};
 use dashpot::response::recording::Loading;
 use dashpot::response::synthesis::{Noise, record};
-use dashpot::structure::Structure;
+use dashpot::structure::{Part, Structure};
 use serde_json::{Value, json};
 
 /// Classes, each a kind of test.
@@ -88,8 +89,11 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     let noise = random.within(0.002, 0.01);
     let chain =
         Measuring { quantity, rows: &rows, gains: &gains, offsets: &offsets, noise, decay: plan.class == "rdecay" };
+    // Natural frequencies scatter from record to record.
+    let drift: Vec<f64> = tests.iter().map(|_| factor(DRIFT, random)).collect();
+    let at = |factor: &f64| truth.structure.with_factors(&[(Part::Stiffness, factor.powi(2))]);
     let records: Vec<Record> =
-        tests.iter().map(|test| chain.record(&truth.structure, &all, test, random)).collect::<Option<_>>()?;
+        tests.iter().zip(&drift).map(|(test, f)| chain.record(&at(f), &all, test, random)).collect::<Option<_>>()?;
     let documents: Vec<Value> = hidden_true.iter().map(|s| document(s, &truth.structure)).collect();
     Some(Written {
         truth: json!({
@@ -99,6 +103,7 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
             "known": factors,
             "gains": gains,
             "offsets": offsets,
+            "drift": drift,
             "noise": noise,
         }),
         omegas: vec![0.0; records.len()],

@@ -6,7 +6,7 @@ use super::telling::added;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{part_of, size_of};
-use crate::effects::{Effect, Place, Source};
+use crate::effects::{Constant, Place, Source};
 use crate::math::statistics::root_mean_square;
 use crate::structure::{Part, Structure};
 
@@ -31,7 +31,7 @@ impl ModelErrors {
         let shapes: Vec<f64> = fit.shapes.iter().flatten().copied().collect();
         let together = (ERRORS * root_mean_square(&shapes)).clamp(TOGETHER[0], TOGETHER[1]);
         for added in added(fit) {
-            let all = if added.source.effect == Effect::Mass { fit.mass } else { fit.stiffness };
+            let all = if added.source.effect.adds_to(Constant::Mass) { fit.mass } else { fit.stiffness };
             let deviation = added.deviations.first().copied();
             let correction = correction(structure, &added.source, deviation, all.exp());
             let correction = correction.filter(|c| c.factor < 1.0 + together);
@@ -61,7 +61,7 @@ impl ModelErrors {
 /// What a spring or mass changes of the one that is there, of which `all` is the factor on all stiffness or mass.
 fn correction(structure: &Structure, source: &Source, deviation: Option<f64>, all: f64) -> Option<Correction> {
     // The entries of the stiffness matrix of a beam are no springs.
-    let part = part_of(source).filter(|_| source.effect == Effect::Mass || structure.elements().is_empty())?;
+    let part = part_of(source).filter(|_| source.effect.adds_to(Constant::Mass) || structure.elements().is_empty())?;
     let own = all * size_of(structure, part);
     let change = source.parameters[0] / own;
     let deviation = deviation? / own;
@@ -71,9 +71,9 @@ fn correction(structure: &Structure, source: &Source, deviation: Option<f64>, al
 
 /// Whether an effect is a mass or spring that takes away, or is less than the share `together` of what is there.
 fn is_slight(structure: &Structure, source: &Source, together: f64) -> bool {
-    let (matrix, share) = match (source.effect, structure.matrices()) {
-        (Effect::Mass, Some(matrices)) => (&matrices.mass, together),
-        (Effect::Stiffness, Some(matrices)) => (&matrices.stiffness, SLIGHT * together),
+    let (matrix, share) = match (source.effect.constant(), structure.matrices()) {
+        (Some(Constant::Mass), Some(matrices)) => (&matrices.mass, together),
+        (Some(Constant::Stiffness), Some(matrices)) => (&matrices.stiffness, SLIGHT * together),
         _ => return false,
     };
     let Place::Dofs(dofs) = &source.place else { return false };
@@ -85,6 +85,7 @@ fn is_slight(structure: &Structure, source: &Source, together: f64) -> bool {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::effects::Effect;
     use crate::structure::chain::ChainParameters;
 
     /// A chain of two masses with springs of 500 N/m to the ground and 1000 N/m between them.

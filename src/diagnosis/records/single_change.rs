@@ -12,7 +12,7 @@ use super::evidence::{AGREES, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
-use crate::effects::{Effect, Family, Place, Source, State};
+use crate::effects::{Constant, Effect, Family, Place, Source, State};
 use crate::math::least_squares::LeastSquares;
 use faer::Mat;
 
@@ -71,8 +71,9 @@ fn changes(records: &Records, corrected: &FittedRecords) -> Vec<(f64, Source)> {
     let structure = records.structure;
     let mut places = Family::EachTranslation.places(structure);
     places.extend(Family::EachPair.places(structure));
-    let of = |place: &Place| [Effect::Mass, Effect::Stiffness].map(|law| change(records, corrected, law, place));
-    let mut all: Vec<(f64, f64, Source)> = places.iter().flat_map(of).flatten().collect();
+    let laws = || Effect::ALL.into_iter().filter(|effect| effect.is_mass_or_spring());
+    let of = |place: &Place| laws().filter_map(|law| change(records, corrected, law, place)).collect::<Vec<_>>();
+    let mut all: Vec<(f64, f64, Source)> = places.iter().flat_map(of).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all.into_iter().map(|(_, stiffness, source)| (stiffness, source)).collect()
 }
@@ -82,7 +83,7 @@ fn change(records: &Records, corrected: &FittedRecords, effect: Effect, place: &
     let leg = place.legs().first().copied()?;
     let by = |r: usize| {
         let shape = leg.relative(|i| records.modes.shapes[(i, r)]);
-        if effect == Effect::Mass { -shape * shape } else { (shape / records.modes.omega[r]).powi(2) }
+        if effect.adds_to(Constant::Mass) { -shape * shape } else { (shape / records.modes.omega[r]).powi(2) }
     };
     let matrix = Mat::from_fn(records.kept, 2, |r, k| if k == 0 { 1.0 } else { by(r) });
     let by_parts = records.stiffness_by_parts(&corrected.parts);

@@ -6,7 +6,7 @@ use super::localisation::{LocatedForce, locate};
 use super::regression::{Regressed, Regression};
 use super::rivals::is_same_set;
 use super::search::Search;
-use crate::effects::{Effect, Family, Motion, Place, Range, Source, State};
+use crate::effects::{Constant, Effect, Family, Motion, Place, Range, Source, State};
 use std::f64::consts::TAU;
 
 /// Places that a free force names, shapes of a law where no equation of motion sizes it.
@@ -74,10 +74,10 @@ impl Search<'_> {
         let place = ranked.first().map(|r| r.source.place.clone());
         let best_place = |r: &Regressed| place.as_ref().is_some_and(|p| p.is_same(&r.source.place));
         // Masses and springs look like the errors of the shapes that are taken out: only a fit tells them.
-        let constant = |law: Effect| {
-            ranked.iter().filter(move |r| r.source.effect == law).take(CONSTANTS).map(|r| r.source.clone())
+        let constant = |kind: Constant| {
+            ranked.iter().filter(move |r| r.source.effect.adds_to(kind)).take(CONSTANTS).map(|r| r.source.clone())
         };
-        let constants: Vec<Source> = constant(Effect::Mass).chain(constant(Effect::Stiffness)).collect();
+        let constants: Vec<Source> = constant(Constant::Mass).chain(constant(Constant::Stiffness)).collect();
         let near = |r: &Regressed, behind: f64| r.misfit <= (behind * least).max(regression.rows() as f64);
         ranked.retain(|r| near(r, BEHIND[usize::from(!best_place(r))]));
         let mut places: Vec<&Place> = Vec::new();
