@@ -17,7 +17,7 @@ use crate::structure::Part;
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 
-/// Share of the promised error that errors of the test leave at most where they are told.
+/// Share of the promised error that is left at most, errors of the test taken out, where they are told: they make half of its square.
 const OF_THE_TEST: f64 = 0.7;
 
 /// Promised error with corrected parts over that without from which on they are told.
