@@ -67,6 +67,9 @@ impl FitProblem<'_> {
         for k in 0..if self.free.effects { 0 } else { laws } {
             normal.matrix[(k, k)] = 1.0;
         }
+        for k in self.unused_shifts(at) {
+            normal.matrix[(k, k)] = 1.0;
+        }
         for (j, _) in self.free.corrections.iter().enumerate().filter(|(_, free)| !**free) {
             normal.matrix[(laws + j, laws + j)] = 1.0;
         }

@@ -24,7 +24,7 @@ pub(super) struct Free {
     /// All stiffness, then the size of every known source, then the damping and the stiffness of every mode, then all mass, at last the parts; none
     /// where it is empty.
     pub corrections: Vec<bool>,
-    /// The shift of every record.
+    /// The shift of every record, which its parts share.
     pub shifts: bool,
     /// The shapes of the modes at the sensors.
     pub shapes: bool,
@@ -147,6 +147,23 @@ impl FitProblem<'_> {
         self.shared(at) + (r + 1) * self.local() - self.offsets()
     }
 
+    /// Number of the variable of the shift of a record: that of its first part, so that none stands for a frequency that follows the amplitude.
+    fn shift_variable(&self, at: &FittedRecords, r: usize) -> usize {
+        let list = &self.records.list;
+        let first = list.iter().position(|other| other.index == list[r].index).unwrap_or(r);
+        self.own_shift(at, first)
+    }
+
+    fn own_shift(&self, at: &FittedRecords, r: usize) -> usize {
+        self.shared(at) + r * self.local() + 2 * self.records.kept
+    }
+
+    /// Variables of shifts of parts that share that of another.
+    pub(super) fn unused_shifts(&self, at: &FittedRecords) -> Vec<usize> {
+        let all = if self.free.shifts { self.records.list.len() } else { 0 };
+        (0..all).map(|r| self.own_shift(at, r)).zip(0..).filter(|(k, r)| *k != self.shift_variable(at, *r)).map(|(k, _)| k).collect()
+    }
+
     /// `at` moved by a change of all variables.
     pub(super) fn moved(&self, at: &FittedRecords, scales: &[Vec<f64>], change: &[f64]) -> FittedRecords {
         let mut next = at.clone();
@@ -182,7 +199,7 @@ impl FitProblem<'_> {
                 *p += change[from + j];
             }
             if self.free.shifts {
-                next.shifts[r] += change[from + 2 * self.records.kept].clamp(-0.05, 0.05);
+                next.shifts[r] += change[self.shift_variable(at, r)].clamp(-0.05, 0.05);
             }
             let first = self.offset_variable(at, r);
             next.offsets[r].iter_mut().zip(&change[first..]).for_each(|(o, c)| *o += c);
@@ -213,7 +230,7 @@ impl FitProblem<'_> {
         }
         let from = self.shared(at) + r * self.local();
         if self.free.shifts {
-            list.push((TransientParameter::Stiffness, from + 2 * self.records.kept, 1.0));
+            list.push((TransientParameter::Stiffness, self.shift_variable(at, r), 1.0));
         }
         if !self.free.corrections.is_empty() {
             let free = |j: usize| self.free.corrections[j];
@@ -277,8 +294,8 @@ impl FitProblem<'_> {
             list.extend((0..self.offsets()).map(|c| (first + c, offset(c), deviation(c))));
         }
         if self.free.shifts {
-            let at_record = |r: usize| self.shared(at) + r * self.local() + 2 * self.records.kept;
-            list.extend(at.shifts.iter().enumerate().map(|(r, v)| (at_record(r), *v, PRIORS[2])));
+            let own = at.shifts.iter().enumerate().map(|(r, v)| (self.own_shift(at, r), self.shift_variable(at, r), *v));
+            list.extend(own.filter(|(own, shared, _)| own == shared).map(|(k, _, v)| (k, v, PRIORS[2])));
         }
         list
     }

@@ -249,10 +249,8 @@ impl Search<'_> {
             return (Vec::new(), 0.0);
         }
         let records = &self.levels[level];
-        let mut free = Free::all(records);
-        free.shifts = level + 1 == self.levels.len();
         let alone = self.control.alone();
-        let problem = FitProblem { records, free, share: 1.0, control: &alone };
+        let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: &alone };
         let Ok(test) = ScoreTest::new(&problem, fit) else { return (Vec::new(), f64::INFINITY) };
         let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
         let at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {

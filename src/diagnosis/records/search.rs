@@ -1,7 +1,7 @@
 //! Fits of one effect more: laws at places from which fits begin, fitted on parts of the records, and carried on to longer ones.
 
 use super::compare::first_states;
-use super::data::{RecordError, Records};
+use super::data::{RecordData, RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
@@ -129,9 +129,7 @@ impl Search<'_> {
     /// The fit of the first `share` of every part of `level`, everything free.
     pub(super) fn problem<'s>(&'s self, level: usize, share: f64, control: &'s Control) -> FitProblem<'s> {
         let records = &self.levels[level];
-        // A shift of each part of a record would stand for a frequency that follows the amplitude.
-        let free = Free { shifts: level + 1 == self.levels.len(), ..Free::all(records) };
-        FitProblem { records, free, share, control }
+        FitProblem { records, free: Free::all(records), share, control }
     }
 
     /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
@@ -144,7 +142,8 @@ impl Search<'_> {
         let found: Vec<Option<usize>> = (0..records.list.len()).map(same).collect();
         let rest = vec![0.0; 2 * records.kept];
         let initial = found.iter().map(|k| k.map_or_else(|| rest.clone(), |k| fit.initial[k].clone())).collect();
-        let (shifts, offsets) = (vec![0.0; records.list.len()], records.no_offsets());
+        let shift = |wanted: &RecordData| known.list.iter().position(|r| r.index == wanted.index).map_or(0.0, |k| fit.shifts[k]);
+        let (shifts, offsets) = (records.list.iter().map(shift).collect(), records.no_offsets());
         let start = FittedRecords { offsets, shifts, initial, ..fit.clone() };
         if found.iter().all(Option::is_some) {
             return Ok(start);
