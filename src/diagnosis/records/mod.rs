@@ -39,6 +39,7 @@ mod parts;
 mod probability;
 mod problem;
 mod regression;
+mod restrictions;
 mod rivals;
 mod score;
 mod search;

@@ -311,7 +311,8 @@ pub(super) struct RecordPart {
 }
 
 impl Normal {
-    fn add(&mut self, part: &RecordPart) {
+    /// Adds the products of one record.
+    pub(super) fn add(&mut self, part: &RecordPart) {
         let Products { count, matrix, against } = &part.products;
         for (p, k, s) in &part.unknowns {
             self.gradient[*k] += s * against[*p];

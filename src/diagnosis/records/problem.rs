@@ -148,7 +148,7 @@ impl FitProblem<'_> {
     }
 
     /// Number of the variable of the shift of a record: that of its first part, so that none stands for a frequency that follows the amplitude.
-    fn shift_variable(&self, at: &FittedRecords, r: usize) -> usize {
+    pub(super) fn shift_variable(&self, at: &FittedRecords, r: usize) -> usize {
         let list = &self.records.list;
         let first = list.iter().position(|other| other.index == list[r].index).unwrap_or(r);
         self.own_shift(at, first)
@@ -161,7 +161,12 @@ impl FitProblem<'_> {
     /// Variables of shifts of parts that share that of another.
     pub(super) fn unused_shifts(&self, at: &FittedRecords) -> Vec<usize> {
         let all = if self.free.shifts { self.records.list.len() } else { 0 };
-        (0..all).map(|r| self.own_shift(at, r)).zip(0..).filter(|(k, r)| *k != self.shift_variable(at, *r)).map(|(k, _)| k).collect()
+        (0..all)
+            .map(|r| self.own_shift(at, r))
+            .zip(0..)
+            .filter(|(k, r)| *k != self.shift_variable(at, *r))
+            .map(|(k, _)| k)
+            .collect()
     }
 
     /// `at` moved by a change of all variables.
@@ -294,7 +299,8 @@ impl FitProblem<'_> {
             list.extend((0..self.offsets()).map(|c| (first + c, offset(c), deviation(c))));
         }
         if self.free.shifts {
-            let own = at.shifts.iter().enumerate().map(|(r, v)| (self.own_shift(at, r), self.shift_variable(at, r), *v));
+            let own =
+                at.shifts.iter().enumerate().map(|(r, v)| (self.own_shift(at, r), self.shift_variable(at, r), *v));
             list.extend(own.filter(|(own, shared, _)| own == shared).map(|(k, _, v)| (k, v, PRIORS[2])));
         }
         list

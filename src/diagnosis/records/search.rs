@@ -142,7 +142,9 @@ impl Search<'_> {
         let found: Vec<Option<usize>> = (0..records.list.len()).map(same).collect();
         let rest = vec![0.0; 2 * records.kept];
         let initial = found.iter().map(|k| k.map_or_else(|| rest.clone(), |k| fit.initial[k].clone())).collect();
-        let shift = |wanted: &RecordData| known.list.iter().position(|r| r.index == wanted.index).map_or(0.0, |k| fit.shifts[k]);
+        let shift = |wanted: &RecordData| {
+            known.list.iter().position(|r| r.index == wanted.index).map_or(0.0, |k| fit.shifts[k])
+        };
         let (shifts, offsets) = (records.list.iter().map(shift).collect(), records.no_offsets());
         let start = FittedRecords { offsets, shifts, initial, ..fit.clone() };
         if found.iter().all(Option::is_some) {

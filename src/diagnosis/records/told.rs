@@ -10,10 +10,11 @@ use super::data::RecordError;
 use super::evidence::{AGREES, information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
+use super::restrictions::Restrictions;
 use super::search::Search;
 use crate::diagnosis::result::Added;
 use crate::effects::{Place, Source};
-use crate::math::statistics::mean;
+use dashpot_numerics::dot;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
@@ -24,6 +25,19 @@ const ROUNDS: [usize; 2] = [2, 4];
 /// The same of those of initial states.
 const PROMISING: [usize; 2] = [3, 3];
 
+/// Choices that are fitted, those first that cost least to first order.
+const FITTED: usize = 3;
+
+/// A choice of corrections that may stand for all of those of a fit.
+struct Choice<'f> {
+    fit: &'f FittedRecords,
+    stiffness: bool,
+    by_mode: bool,
+    mass: bool,
+    /// Corrections that are free, in the order of their variables.
+    free: Vec<bool>,
+}
+
 impl Search<'_> {
     /// `fit` with the corrections that can be told; its effects fitted beside them. Where time is up they are
     /// told as they are.
@@ -32,16 +46,25 @@ impl Search<'_> {
             return Ok(fit.clone());
         }
         let mut best: Option<(FittedRecords, usize)> = None;
-        for (fit, sizes) in self.by_sizes(fit) {
-            self.told_with(&fit, &sizes, &mut best)?;
-            if best.as_ref().is_some_and(|(told, _)| is_plainest(told, &fit)) {
+        let all = Restrictions::new(self, fit)?;
+        let weights = all.information_of_shifts();
+        let versions = self.by_sizes(fit);
+        let choices = versions.iter().flat_map(|(fit, sizes)| self.choices(fit, sizes));
+        let mut choices: Vec<(f64, Choice)> =
+            choices.map(|choice| (self.first_order_cost(&all, &choice.free), choice)).collect();
+        choices.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (cost, choice) in choices.into_iter().take(FITTED) {
+            // What costs more to first order than another does is not the plainest.
+            if best.as_ref().is_some_and(|told| is_plainest(&told.0, choice.fit) || cost_of(told, scale(fit)) < cost) {
                 break;
             }
+            self.fitted_as(&choice, &weights, &mut best)?;
         }
         // What agrees with the records only by sizes that are not sure each is told with all of them.
         let enough = self.records.agreement(AGREES);
         if misfit(fit) <= enough && best.as_ref().is_some_and(|(told, _)| misfit(told) > enough) {
-            self.told_with(fit, &vec![true; fit.known.len() + self.records.damped()], &mut best)?;
+            let sizes = vec![true; fit.known.len() + self.records.damped()];
+            self.choices(fit, &sizes).iter().try_for_each(|choice| self.fitted_as(choice, &weights, &mut best))?;
         }
         Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
     }
@@ -83,71 +106,82 @@ impl Search<'_> {
         if damped > 0 { vec![version(false), version(true)] } else { vec![version(false)] }
     }
 
-    /// Puts the plainest fit with the corrections that can be told in place of `best`, where it is plainer. `fit` has its sizes as they
-    /// are told, of which `sizes` are free.
-    fn told_with(
-        &self,
-        fit: &FittedRecords,
-        sizes: &[bool],
-        best: &mut Option<(FittedRecords, usize)>,
-    ) -> Result<(), RecordError> {
+    /// What may be free beside `sizes` of `fit`: nothing, all stiffness, the stiffness of modes, and these beside all mass.
+    fn choices<'f>(&self, fit: &'f FittedRecords, sizes: &[bool]) -> Vec<Choice<'f>> {
         let count = modes(self.records);
-        let mask = |[stiffness, modes, mass]: [bool; 3]| {
-            let sizes = sizes.iter().copied().chain(vec![modes; count]);
+        let choice = |stiffness: bool, by_mode: bool, mass: bool| {
+            let sizes = sizes.iter().copied().chain(vec![by_mode; count]);
             let parts = vec![false; self.records.parts.len()];
-            std::iter::once(stiffness).chain(sizes).chain([mass]).chain(parts).collect::<Vec<bool>>()
+            let free = std::iter::once(stiffness).chain(sizes).chain([mass]).chain(parts).collect();
+            Choice { fit, stiffness, by_mode, mass, free }
         };
-        let by_parts = self.records.stiffness_by_parts(&fit.parts);
-        // Where all mass is held, frequencies are as they were by less stiffness.
-        let all = fit.stiffness - fit.mass;
-        let uniform = all + fit.modes[self.dominant()] + by_parts[self.dominant()];
-        let mut variants = vec![([false; 3], 0.0), ([true, false, false], uniform)];
+        let mut choices = vec![choice(false, false, false), choice(true, false, false)];
         if count > 0 {
-            variants.push(([false, true, false], 0.0));
+            choices.push(choice(false, true, false));
         }
         // A motion without a force shows no mass.
         if self.records.list.iter().any(|r| !r.forces.is_empty()) {
-            variants.push(([true, false, true], uniform + fit.mass));
+            choices.push(choice(true, false, true));
             if fit.mass != 0.0 && count > 0 {
-                variants.push(([false, true, true], 0.0));
+                choices.push(choice(false, true, true));
             }
         }
-        let variant = |k: usize| -> Result<Vec<(FittedRecords, usize)>, RecordError> {
-            let (what, stiffness) = variants[k];
-            let (mask, by_mode) = (mask(what), what[1]);
-            let mut start = fit.clone();
-            start.stiffness = stiffness;
-            let held = if what[2] { fit.stiffness } else { all };
-            let by_parts = by_parts.iter().map(|v| v + held);
-            start.modes.iter_mut().zip(by_parts).for_each(|(v, more)| *v = if by_mode { *v + more } else { 0.0 });
-            start.mass = if what[2] { fit.mass } else { 0.0 };
-            start.parts.fill(0.0);
-            let mut next = self.fitted_anew(&start, mask.clone())?;
-            let mut found = vec![(next.clone(), number(&mask))];
-            let free = self.kept(&mut next, mask.clone());
-            if by_mode || free != mask {
-                found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
+        choices
+    }
+
+    /// What a choice costs to first order, without those of its sizes and modes that would not stand out.
+    fn first_order_cost(&self, all: &Restrictions, free: &[bool]) -> f64 {
+        let Some(restricted) = all.with(free) else { return f64::INFINITY };
+        let mut few = free.to_vec();
+        for (k, (value, deviation)) in restricted.sizes.iter().enumerate() {
+            few[1 + k] &= self.stands_out(k, *value, *deviation);
+        }
+        let without = if few == free { None } else { all.with(&few) };
+        restricted.cost.min(without.map_or(f64::INFINITY, |w| w.cost))
+    }
+
+    /// Puts the plainest fit with a choice of corrections in place of `best`, where it is plainer.
+    fn fitted_as(
+        &self,
+        choice: &Choice,
+        weights: &[f64],
+        best: &mut Option<(FittedRecords, usize)>,
+    ) -> Result<(), RecordError> {
+        let mut next = self.fitted_anew(&self.start_of(choice), choice.free.clone())?;
+        let mut found = vec![(next.clone(), number(&choice.free))];
+        let free = self.kept(&mut next, choice.free.clone());
+        if choice.by_mode || free != choice.free {
+            found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
+        }
+        for (mut told, count) in found {
+            keep_deviations(&mut told, choice.fit);
+            if choice.stiffness || choice.by_mode {
+                without_common_shift(&mut told, choice.by_mode, weights);
+            } else if common_shift(&told, weights).abs() >= LEAST[1] {
+                // What all records have in common is no scatter, and no project states it as that.
+                continue;
             }
-            found.iter_mut().for_each(|(told, _)| keep_deviations(told, fit));
-            // What all records have in common is no scatter, and no project states it as that.
-            if what == [false; 3] {
-                found.retain(|(told, _)| mean(&told.shifts).abs() < LEAST[1]);
-            } else {
-                found.iter_mut().for_each(|(told, _)| without_common_shift(told, by_mode));
-            }
-            Ok(found)
-        };
-        for k in 0..variants.len() {
-            for (next, count) in variant(k)? {
-                if best.as_ref().is_none_or(|best| is_plainer((&next, count), (&best.0, best.1))) {
-                    *best = Some((next, count));
-                }
-            }
-            if best.as_ref().is_some_and(|(told, _)| is_plainest(told, fit)) {
-                break;
+            if best.as_ref().is_none_or(|best| is_plainer((&told, count), (&best.0, best.1))) {
+                *best = Some((told, count));
             }
         }
         Ok(())
+    }
+
+    /// Where the fit of a choice begins: what errors of parts and of all stiffness do to frequencies is done by what is free.
+    fn start_of(&self, choice: &Choice) -> FittedRecords {
+        let Choice { fit, by_mode, mass, .. } = choice;
+        let by_parts = self.records.stiffness_by_parts(&fit.parts);
+        // Where all mass is held, frequencies are as they were by less stiffness.
+        let held = if *mass { fit.stiffness } else { fit.stiffness - fit.mass };
+        let uniform = held + fit.modes[self.dominant()] + by_parts[self.dominant()];
+        let mut start = FittedRecords::clone(fit);
+        start.stiffness = if choice.stiffness { uniform } else { 0.0 };
+        let of_modes = start.modes.iter_mut().zip(by_parts);
+        of_modes.for_each(|(v, by_parts)| *v = if *by_mode { *v + by_parts + held } else { 0.0 });
+        start.mass = if *mass { fit.mass } else { 0.0 };
+        start.parts.fill(0.0);
+        start
     }
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
@@ -167,13 +201,18 @@ impl Search<'_> {
         let modes = fit.modes.iter_mut().take(modes(self.records));
         let values = fit.known.iter_mut().chain(&mut fit.damping).chain(modes);
         for (k, value) in values.enumerate() {
-            let kind = usize::from(k >= self.records.sizes());
             let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::INFINITY) * wide;
-            if free[1 + k] && value.abs() <= (MOVED[kind] * deviation).max(LEAST[kind]) {
+            if free[1 + k] && !self.stands_out(k, *value, deviation) {
                 (*value, free[1 + k]) = (0.0, false);
             }
         }
         free
+    }
+
+    /// Whether the size of a known source, the damping or the stiffness of a mode, of this number, is told.
+    fn stands_out(&self, k: usize, value: f64, deviation: f64) -> bool {
+        let kind = usize::from(k >= self.records.sizes());
+        value.abs() > (MOVED[kind] * deviation).max(LEAST[kind])
     }
 
     /// The mode that is nearest to the highest peak of the first record.
@@ -221,9 +260,15 @@ fn keep_deviations(told: &mut FittedRecords, fit: &FittedRecords) {
     }
 }
 
+/// What the shifts of all records have in common: their mean, each weighted by what its record tells of it.
+fn common_shift(told: &FittedRecords, weights: &[f64]) -> f64 {
+    let all: f64 = weights.iter().sum();
+    if all > 0.0 { dot(&told.shifts, weights) / all } else { 0.0 }
+}
+
 /// Puts what the shifts of all records have in common on the stiffness of the modes, or on all stiffness: the same model.
-fn without_common_shift(told: &mut FittedRecords, by_mode: bool) {
-    let common = mean(&told.shifts);
+fn without_common_shift(told: &mut FittedRecords, by_mode: bool, weights: &[f64]) {
+    let common = common_shift(told, weights);
     told.shifts.iter_mut().for_each(|v| *v -= common);
     if by_mode {
         told.modes.iter_mut().for_each(|v| *v += common);
@@ -235,6 +280,11 @@ fn without_common_shift(told: &mut FittedRecords, by_mode: bool) {
 /// Number of corrections that are free.
 fn number(free: &[bool]) -> usize {
     free.iter().filter(|f| **f).count()
+}
+
+/// Cost of a fit with its number of corrections on some scale.
+fn cost_of((fit, count): &(FittedRecords, usize), unit: f64) -> f64 {
+    fit.chi_square / unit + fit.prior + *count as f64 * information(fit, unit)
 }
 
 /// Whether the first of two fits, each with its number of corrections, has more evidence.

@@ -1,0 +1,141 @@
+//! What a fit would leave were some of its corrections held where the model states them, to first order (Wald test: Wald 1943).
+//!
+//! ```text
+//! left(d) = left_0 - 2 g^T d + d^T N d,    d_c = -v_c of what is held at 0,    N d = g in what is free
+//! ```
+//!
+//! `N` and `g` are the normal equations in which all is free. Found once, they weigh every choice of corrections, each of which
+//! would ask for a fit of its own.
+
+use super::data::RecordError;
+use super::evidence::{information, scale};
+use super::fitted::FittedRecords;
+use super::normal::{Left, Normal};
+use super::problem::{FitProblem, Free, modes};
+use super::search::Search;
+use super::steps::Steps;
+use super::variables::scales;
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
+
+/// Share of the diagonal that is added where equations would have no solution.
+const RIDGE: f64 = 1e-9;
+
+/// A fit to whole records with its normal equations by corrections, shifts, shapes, offsets and initial states, without priors.
+pub(super) struct Restrictions<'a> {
+    search: &'a Search<'a>,
+    fit: &'a FittedRecords,
+    normal: Normal,
+}
+
+/// A fit with some corrections held, to first order.
+pub(super) struct Restricted {
+    /// What is left and the priors over the unit of evidence, and what the free corrections themselves cost.
+    pub cost: f64,
+    /// Sizes of known sources, damping and stiffness of modes, each with its deviation.
+    pub sizes: Vec<(f64, f64)>,
+}
+
+impl<'a> Restrictions<'a> {
+    /// The equations at `fit`, whose effects are held.
+    ///
+    /// # Errors
+    /// [`RecordError`]: a model that cannot be predicted.
+    pub(super) fn new(search: &'a Search<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
+        let count = Free::all(search.records).corrections.len();
+        let problem = problem(search, vec![true; count]);
+        let scales = scales(&fit.effects);
+        let products = |r: usize| -> Result<_, RecordError> {
+            let mut derivatives = problem.derivatives(fit, &scales, r, Steps::Coarse)?;
+            derivatives.left = problem.left_of(fit, r, Steps::Fine)?;
+            Ok(derivatives.products(1.0))
+        };
+        let parts = search.control.map(search.records.list.len(), products);
+        let size = problem.shared(fit) + search.records.list.len() * problem.local();
+        let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
+        for part in parts {
+            normal.add(&part?);
+        }
+        Ok(Self { search, fit, normal })
+    }
+
+    /// With a choice of `free` corrections, the others at 0; `None` where the equations have no solution.
+    pub(super) fn with(&self, free: &[bool]) -> Option<Restricted> {
+        let (fit, unit) = (self.fit, scale(self.fit));
+        let problem = problem(self.search, free.to_vec());
+        let first = problem.first_correction(fit);
+        let unused = problem.unused_shifts(fit);
+        let is_held = |k: &usize| *k < first || unused.contains(k) || free.get(k - first).is_some_and(|free| !free);
+        let (held, moving): (Vec<usize>, Vec<usize>) = (0..self.normal.gradient.len()).partition(is_held);
+        let mut change = vec![0.0; self.normal.gradient.len()];
+        let values = self.corrections();
+        held.iter().filter_map(|k| Some((k, values.get(k.checked_sub(first)?)?))).for_each(|(k, v)| change[*k] = -v);
+        let (mut matrix, mut gradient, mut prior) = (self.normal.matrix.clone(), self.normal.gradient.clone(), 0.0);
+        for (k, value, deviation) in problem.priors(fit) {
+            let weight = unit * deviation.powi(-2);
+            matrix[(k, k)] += weight;
+            gradient[k] -= weight * value;
+            prior += weight * value * value;
+        }
+        let (more, variance) = least(&matrix, &gradient, &moving, &mut change)?;
+        let count = free.iter().filter(|free| **free).count();
+        let cost = (fit.chi_square + prior + more) / unit + count as f64 * information(fit, unit);
+        let size = |k: usize| (values[k] + change[first + k], (unit * variance[first + k]).sqrt());
+        let last = 1 + self.search.records.sizes() + modes(self.search.records);
+        Some(Restricted { cost, sizes: (1..last).map(size).collect() })
+    }
+
+    /// What every record tells of its own shift where its initial state and offsets are free: inverse variances.
+    pub(super) fn information_of_shifts(&self) -> Vec<f64> {
+        let problem = problem(self.search, vec![false; self.corrections().len()]);
+        let (matrix, local) = (&self.normal.matrix, problem.local());
+        let of = |r: usize| {
+            let first = problem.shared(self.fit) + r * local;
+            let shift = problem.shift_variable(self.fit, r);
+            let others: Vec<usize> = (first..first + local).filter(|k| *k != shift).collect();
+            let scaling: Vec<f64> = others.iter().map(|&k| matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
+            let unit = Mat::from_fn(others.len(), others.len(), |i, j| {
+                let ridge = if i == j { RIDGE } else { 0.0 };
+                matrix[(others[i], others[j])] * scaling[i] * scaling[j] + ridge
+            });
+            let beside = Mat::from_fn(others.len(), 1, |i, _| matrix[(others[i], shift)] * scaling[i]);
+            let solved = Cholesky::new(unit.as_ref()).map(|factored| factored.solve(beside.as_ref()));
+            let taken = |solved: &Mat<f64>| (0..others.len()).map(|i| beside[(i, 0)] * solved[(i, 0)]).sum::<f64>();
+            (matrix[(shift, shift)] - solved.as_ref().map_or(0.0, taken)).max(0.0)
+        };
+        (0..self.search.records.list.len()).map(of).collect()
+    }
+
+    /// Values of all corrections, in the order of their variables.
+    fn corrections(&self) -> Vec<f64> {
+        let fit = self.fit;
+        let sizes = fit.known.iter().chain(&fit.damping).chain(fit.modes.iter().take(modes(self.search.records)));
+        let all = std::iter::once(&fit.stiffness).chain(sizes).chain([&fit.mass]).chain(&fit.parts);
+        all.copied().collect()
+    }
+}
+
+fn problem<'a>(search: &Search<'a>, corrections: Vec<bool>) -> FitProblem<'a> {
+    let free = Free { corrections, shifts: true, shapes: true, effects: false };
+    FitProblem { records: search.records, free, share: 1.0, control: search.control }
+}
+
+/// The least of `-2 g^T d + d^T N d` where only what is `moving` differs from `change`, which becomes `d`; and the variance of all of it.
+fn least(matrix: &Mat<f64>, gradient: &[f64], moving: &[usize], change: &mut [f64]) -> Option<(f64, Vec<f64>)> {
+    let (size, count) = (change.len(), moving.len());
+    let row = |k: usize, change: &[f64]| (0..size).map(|j| matrix[(k, j)] * change[j]).sum::<f64>();
+    let scaling: Vec<f64> = moving.iter().map(|&k| matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
+    let unit = Mat::from_fn(count, count, |i, j| {
+        let ridge = if i == j { RIDGE } else { 0.0 };
+        matrix[(moving[i], moving[j])] * scaling[i] * scaling[j] + ridge
+    });
+    let inverse = Cholesky::new(unit.as_ref())?.solve(Mat::<f64>::identity(count, count).as_ref());
+    let right: Vec<f64> = moving.iter().zip(&scaling).map(|(&k, s)| (gradient[k] - row(k, change)) * s).collect();
+    let mut variance = vec![0.0; size];
+    for (i, &k) in moving.iter().enumerate() {
+        change[k] = scaling[i] * (0..count).map(|j| inverse[(i, j)] * right[j]).sum::<f64>();
+        variance[k] = scaling[i] * scaling[i] * inverse[(i, i)].max(0.0);
+    }
+    let turned: Vec<f64> = (0..size).map(|k| row(k, change)).collect();
+    Some((dot(change, &turned) - 2.0 * dot(gradient, change), variance))
+}
