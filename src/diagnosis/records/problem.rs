@@ -306,3 +306,38 @@ impl FitProblem<'_> {
         list
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::super::search::Search;
+    use super::*;
+    use crate::common::models::oscillator;
+    use crate::common::runs::decay;
+
+    /// Parts of two records of one oscillator, the second 0.3 % stiffer: the parts of a record have one shift, which tells the two apart.
+    #[test]
+    fn parts_of_a_record_share_its_shift() {
+        let structure = oscillator(1.0, 400.0);
+        let wave = |n: usize, stiffer: f64| {
+            let t = 1e-2 * n as f64;
+            1e-2 * (-0.02 * t).exp() * (20.0 * stiffer.sqrt() * t).cos() + 4e-6 * (n as f64 * 7.13).sin()
+        };
+        let runs = [1.0, 1.003].map(|stiffer| decay(1e-2, vec![(0..8000).map(|n| wave(n, stiffer)).collect()]));
+        let (records, control) = (Records::new(&structure, &[], &runs).unwrap(), Control::unattended());
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        let start = FittedRecords::start(&search.levels[whole], &[]);
+        let start = search.carried(&start, whole, 0).unwrap();
+        let parts = &search.levels[0];
+        let fit = search.problem(0, 1.0, &control).improve(&start, 20).unwrap();
+        let of = |index: usize| -> Vec<f64> {
+            parts.list.iter().zip(&fit.shifts).filter(|(r, _)| r.index == index).map(|(_, shift)| *shift).collect()
+        };
+        let (first, second) = (of(0), of(1));
+        assert!(first.len() > 1 && second.len() > 1, "{first:?} {second:?}");
+        assert!(first.iter().all(|s| *s == first[0]) && second.iter().all(|s| *s == second[0]), "{first:?} {second:?}");
+        assert!((second[0] - first[0] - 0.003).abs() < 6e-4, "{first:?} {second:?}");
+        assert_eq!(search.problem(0, 1.0, &control).unused_shifts(&fit).len(), parts.list.len() - 2);
+    }
+}

@@ -139,3 +139,70 @@ fn least(matrix: &Mat<f64>, gradient: &[f64], moving: &[usize], change: &mut [f6
     let turned: Vec<f64> = (0..size).map(|k| row(k, change)).collect();
     Some((dot(change, &turned) - 2.0 * dot(gradient, change), variance))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::{chain, source};
+    use crate::common::runs::decay;
+    use crate::control::Control;
+    use crate::diagnosis::records::data::Records;
+    use crate::effects::Effect;
+    use crate::measurement::TransientRun;
+
+    /// Decays of a chain in both modes, as `truth` of `records` gives them, with noise that is the same at every call.
+    fn decays(records: &Records, truth: &FittedRecords) -> Vec<TransientRun> {
+        let mut state = 1_u64;
+        let mut noise = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+        };
+        let mut of = |r: usize| {
+            let mut rows = truth.predict(records, r, records.list[r].len(), &[]).unwrap().channels;
+            rows.iter_mut().flatten().for_each(|y| *y += noise());
+            decay(4e-3, rows)
+        };
+        (0..records.list.len()).map(&mut of).collect()
+    }
+
+    /// What a choice of corrections costs to first order is what a fit with them costs, whether it holds what is off or not.
+    #[test]
+    fn a_choice_costs_what_its_fit_costs() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let known = [source(Effect::Viscous, &[0], &[1.6])];
+        let wave = |n: usize| 1e-2 * (0.06 * n as f64).cos() + 1e-2 * (0.19 * n as f64).cos();
+        let drawn =
+            [decay(4e-3, vec![(0..800).map(wave).collect(); 2]), decay(4e-3, vec![(0..800).map(wave).collect(); 2])];
+        let drawn = Records::new(&structure, &known, &drawn).unwrap();
+        let mut truth = FittedRecords { stiffness: 1e-3, modes: vec![1e-3, 0.0], ..FittedRecords::start(&drawn, &[]) };
+        truth.initial.iter_mut().for_each(|state| state[..2].copy_from_slice(&[1e-2, 1e-2]));
+        let runs = decays(&drawn, &truth);
+        let (records, control) = (Records::new(&structure, &known, &runs).unwrap(), Control::unattended());
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let records = search.records;
+        let start = FittedRecords { initial: truth.initial, ..FittedRecords::start(records, &[]) };
+        let fit = |corrections: Vec<bool>, start: &FittedRecords| {
+            let free = Free { corrections, shifts: true, shapes: true, effects: false };
+            FitProblem { records, free, share: 1.0, control: &control }.improve(start, 30).unwrap()
+        };
+        let count = Free::all(records).corrections.len();
+        let all = fit(vec![true; count], &start);
+        let restrictions = Restrictions::new(&search, &all).unwrap();
+        let unit = scale(&all);
+        let only = |which: &[usize]| (0..count).map(|k| which.contains(&k)).collect::<Vec<bool>>();
+        let cost = |which: &[usize]| {
+            let own = fit(only(which), &start);
+            let actual = own.chi_square / unit + own.prior + which.len() as f64 * information(&all, unit);
+            let first_order = restrictions.with(&only(which)).unwrap().cost;
+            assert!((first_order / actual - 1.0).abs() < 0.1, "{which:?}: {first_order} for {actual}");
+            actual
+        };
+        // All stiffness, the size of the dashpot, the stiffness of both modes.
+        let [stiffness, modes, none] = [cost(&[0, 1]), cost(&[1, 2, 3]), cost(&[1])];
+        assert!(modes < 0.5 * stiffness && modes < 0.5 * none, "{stiffness} {modes} {none}");
+        // The phase that a frequency makes grows with time: twice the length tells it nearly eight times as well.
+        let information = restrictions.information_of_shifts();
+        assert!(information[0] > 4.0 * information[1], "{information:?}");
+    }
+}
