@@ -10,7 +10,7 @@
 
 use super::compare::{noise_floor, started};
 use super::data::{RecordError, Records};
-use super::evidence::{AGREES, evidence, misfit, scale};
+use super::evidence::{AGREES, GAIN, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
@@ -29,10 +29,8 @@ const ENOUGH: f64 = 2.0;
 const MOST_EFFECTS: usize = 3;
 /// Share of each record that is fitted when the rest is to be predicted.
 const LEARNT: f64 = 0.6;
-/// Gain of evidence from which on an effect is kept, and the share of the error that it must take away; from [`DECISIVE`] on it
-/// need not predict the rest of the records better: there a frequency that follows the amplitude, found with the next effect,
-/// still loses the phase.
-const GAIN: f64 = 12.0;
+/// Share of the error that an effect must take away to be kept; from [`DECISIVE`] on it need not predict the rest of the records better:
+/// there a frequency that follows the amplitude, found with the next effect, still loses the phase.
 const WORTH: f64 = 0.15;
 /// Gain of evidence by which an effect must make corrections needless, where both leave no more than noise.
 const NEEDLESS: f64 = 40.0;

@@ -6,6 +6,9 @@ use super::fitted::FittedRecords;
 /// Misfit up to which a model agrees.
 pub(super) const AGREES: f64 = 1.15;
 
+/// Gain of evidence from which on an effect is kept.
+pub(super) const GAIN: f64 = 12.0;
+
 /// Periods of the dominant motion over which the error of a model stays alike: with 3 parameters of the development projects
 /// (laboratory records, seeds 0 to 7) scatter by 1.2 of what is told, with 1 by 1.7.
 const PERIODS: f64 = 3.0;

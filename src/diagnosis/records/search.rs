@@ -2,7 +2,7 @@
 
 use super::compare::first_states;
 use super::data::{RecordData, RecordError, Records};
-use super::evidence::{evidence, scale};
+use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::problem::{FitProblem, Free};
@@ -26,6 +26,8 @@ const FOLLOWED_BESIDE: usize = 3;
 /// Share of what is left that the best further law must take away to first order to be looked for: one that is kept takes away more than a
 /// quarter of it ([`super::diagnose`]), of which a first order may miss a third.
 const PROMISED: f64 = 0.18;
+/// Share of what a further law must gain to be kept, with what its parameter costs, that is seen to first order at least.
+const FOUND: f64 = 0.67;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
@@ -196,6 +198,11 @@ impl Search<'_> {
         let (scored, gain) = self.scored(level, best, &self.all_places(), &LAWS);
         let several = self.records.kept > FEW_MODES && !best.effects.is_empty();
         if several && gain < PROMISED * best.chi_square {
+            return Ok(Vec::new());
+        }
+        // Beside a fit that leaves no more than noise the first order holds.
+        let unit = scale(best);
+        if misfit(best) < AGREES && gain < FOUND * (GAIN + information(best, unit)) * unit {
             return Ok(Vec::new());
         }
         let mut starts = self.begun(level, best, base);

@@ -1,5 +1,6 @@
 //! Where fits of one effect more begin: what the equation of motion demands along the measured motion, else a grid of all laws.
 
+use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::laws::LAWS;
 use super::localisation::{LocatedForce, locate};
@@ -113,7 +114,20 @@ impl Search<'_> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Vec::new() };
         let taken = |s: &Source| best.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let allowed = |s: &Source| s.parameters.iter().zip(s.effect.parameters()).all(|(v, p)| p.allows(*v));
-        let simpler = law.limits().filter(|s| LAWS.contains(&s.effect) && !taken(s) && allowed(s));
+        let simpler: Vec<Source> =
+            law.limits().filter(|s| LAWS.contains(&s.effect) && !taken(s) && allowed(s)).collect();
+        if simpler.is_empty() {
+            return Vec::new();
+        }
+        let motion = FitMotion::new(&self.levels[level], best, self.control).ok();
+        let leg = law.place.legs().first().copied();
+        // Far from the limit its own size is that at a speed or distance of one, which no motion need have.
+        let of_its_force = |source: Source| {
+            let along = leg
+                .zip(motion.as_ref())
+                .and_then(|(leg, motion)| self.alike(law, source.clone(), (leg, motion, level)));
+            along.unwrap_or(source)
+        };
         let in_place = |source: Source| {
             let mut start = best.clone();
             start.effects.pop();
@@ -128,7 +142,7 @@ impl Search<'_> {
             let ended = own.chi_square < ENDED * best.chi_square;
             !ended && problem.left(start).is_ok_and(|left| left.chi_square < own.chi_square)
         };
-        simpler.map(in_place).filter(leaves_less).collect()
+        simpler.into_iter().map(of_its_force).map(in_place).filter(leaves_less).collect()
     }
 
     /// Every place where a law may act.

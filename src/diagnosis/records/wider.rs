@@ -100,7 +100,7 @@ impl Search<'_> {
     }
 
     /// A source scaled so that its force along the motion is that of `law`.
-    fn alike(
+    pub(super) fn alike(
         &self,
         law: &Source,
         mut source: Source,
