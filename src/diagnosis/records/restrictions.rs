@@ -201,8 +201,5 @@ mod tests {
         // All stiffness, the size of the dashpot, the stiffness of both modes.
         let [stiffness, modes, none] = [cost(&[0, 1]), cost(&[1, 2, 3]), cost(&[1])];
         assert!(modes < 0.5 * stiffness && modes < 0.5 * none, "{stiffness} {modes} {none}");
-        // The phase that a frequency makes grows with time: twice the length tells it nearly eight times as well.
-        let information = restrictions.information_of_shifts();
-        assert!(information[0] > 4.0 * information[1], "{information:?}");
     }
 }
