@@ -3,6 +3,7 @@
 
 use crate::support::{Sample, beam, drop_files, open, settle};
 use dashpot::effects::Source;
+use dashpot::session::Session;
 use dashpot::window::App;
 use dashpot::window::view::Stage;
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Theme, TouchPhase, pos2, vec2};
@@ -124,7 +125,10 @@ type Start = (Option<PathBuf>, Vec<Source>);
 
 /// Keys reach everything, menus and templates included, so that another document may be open in the end.
 fn look(harness: &mut Harness<'_, App>, sample: &Sample, start: &mut Start) {
-    let Some(document) = &harness.state().document else {
+    // The start screen opens the samples of this repository in place: nothing is to be changed or saved there.
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data");
+    let own = |session: &Session| session.path().is_none_or(|path| !path.starts_with(&samples));
+    let Some(document) = harness.state().document.as_ref().filter(|document| own(document.session())) else {
         // What was saved before it was closed is the new start.
         start.0 = Some(PathBuf::new());
         let ctx = harness.ctx.clone();

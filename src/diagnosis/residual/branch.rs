@@ -82,8 +82,10 @@ fn at_measured_motion(
     let Some((first, _)) = found.first() else { return Ok(None) };
     let n = predictor.structure().len();
     let mut field = Mat::from_fn(n, run.harmonics, |dof, h| first.response.amplitude(dof, h + 1));
-    if let Some(expansion) = ModalExpansion::new(predictor, (r, 1), run, first) {
-        expansion.correct(run, 1, field.col_as_slice_mut(0));
+    for h in 1..=run.harmonics {
+        if let Some(expansion) = ModalExpansion::new(predictor, (r, h), run, first) {
+            expansion.correct(run, h, field.col_as_slice_mut(h - 1));
+        }
     }
     let Some(start) = start(&predictor.sources(effects), run.omega, &field) else { return Ok(None) };
     let near = match predictor.settled(r, run, effects, settings, &start, control) {

@@ -1,7 +1,7 @@
 //! From a start to the response: Newton's method, the force raised in steps where that fails, arc length in the force
 //! where it turns back; then more harmonics until the watched ones rest.
 
-use super::arc::{all_crossings, level_arc};
+use super::arc::level_arc;
 use super::condense::{Condensed, split};
 use super::dense::Lu;
 use super::error::{ModelError, ResponseError};
@@ -14,7 +14,6 @@ use super::nonlinear_leg::NonlinearLeg;
 use super::outcome::{Attempt, ConvergenceStep, Response, SourceForce, Status};
 use super::prepared::Prepared;
 use super::settings::Settings;
-use super::stability::is_stable;
 use crate::control::Control;
 use crate::effects::{Manner, Source};
 use faer::Mat;
@@ -54,23 +53,10 @@ impl RunModel {
         let at = self.ready(sources, excitation)?;
         respond(&at, sources, excitation, settings, start, control)
     }
-
-    /// All periodic responses to `excitation` that lie on the curve of the response against the level of the force, up to
-    /// three times the force, each with whether small disturbances die out; several where stiffness laws fold that curve.
-    pub fn branches(
-        &self,
-        sources: &[Source],
-        excitation: &Excitation,
-        settings: &Settings,
-        control: &Control,
-    ) -> Result<Vec<(Response, bool)>, ResponseError> {
-        let at = self.ready(sources, excitation)?;
-        branches(&at, sources, excitation, settings, control)
-    }
 }
 
 /// See [`RunModel::respond`].
-fn respond(
+pub(super) fn respond(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,
@@ -115,37 +101,6 @@ fn respond(
     }
     response.history = ladder.history;
     Ok(response)
-}
-
-/// See [`RunModel::branches`].
-fn branches(
-    run: &RunModel,
-    sources: &[Source],
-    excitation: &Excitation,
-    settings: &Settings,
-    control: &Control,
-) -> Result<Vec<(Response, bool)>, ResponseError> {
-    let one = respond(run, sources, excitation, settings, None, control)?;
-    if !split(sources, run.compliance(1)).0.iter().any(NonlinearLeg::folds) {
-        return Ok(vec![(one, true)]);
-    }
-    let prepared = Prepared::new(run, sources, excitation, settings.harmonics.max(excitation.order()))?;
-    let crossings = all_crossings(&prepared.balance(), settings.tolerance, control)?;
-    if crossings.len() < 2 {
-        return Ok(vec![(one, true)]);
-    }
-    let mut found = Vec::with_capacity(crossings.len());
-    for u in crossings {
-        let start = assemble(run, &prepared, excitation, u);
-        // A solution with more harmonics that is not found on this branch is not one of its own.
-        let response = match respond(run, sources, excitation, settings, Some(&start), control) {
-            Err(ResponseError::NotConverged { .. }) => start,
-            other => other?,
-        };
-        let stable = is_stable(run, sources, excitation, &response);
-        found.push((response, stable));
-    }
-    Ok(found)
 }
 
 /// Solutions of one run with growing numbers of harmonics.
