@@ -1,7 +1,7 @@
 //! Random events: pointer, wheel, keys, text, sizes of the window, stages, files dropped. Nothing panics, no frame takes long,
 //! the document stays valid, undo leads back to the start, memory does not grow.
 
-use crate::support::{Sample, beam, drop_files, open, settle};
+use crate::support::{Sample, beam, drop_files, open_unseen, settle};
 use dashpot::effects::Source;
 use dashpot::session::Session;
 use dashpot::window::App;
@@ -149,7 +149,9 @@ fn look(harness: &mut Harness<'_, App>, sample: &Sample, start: &mut Start) {
 
 fn storm(stage: Stage, count: usize) {
     let sample = beam();
-    let mut harness = open(&sample, Theme::Light);
+    // The dialogs of the window begin there: what is saved by chance is not to land in this repository.
+    std::env::set_current_dir(sample.path.parent().unwrap()).unwrap();
+    let mut harness = open_unseen(&sample, Theme::Light);
     let document = harness.state().document.as_ref().unwrap();
     let mut start = (document.session().path().map(Path::to_path_buf), document.project.sources.clone());
     harness.state_mut().view.stage = stage;

@@ -139,22 +139,37 @@ pub(crate) fn open_sized(sample: &Sample, theme: egui::Theme, size: [f32; 2]) ->
     harness
 }
 
+/// A window on a project, settled, of which no picture can be taken: what the graphics adapter holds until it draws does not add up.
+pub(crate) fn open_unseen(sample: &Sample, theme: egui::Theme) -> Harness<'static, App> {
+    let mut harness = rendered(Some(sample.path.clone()), theme, SIZE, Unseen);
+    settle(&mut harness);
+    harness
+}
+
 fn window(file: Option<PathBuf>, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
     let setup = dashpot::window::offscreen::setup(wgpu::Backends::PRIMARY);
-    let mut harness = Harness::builder()
-        .with_size(egui::Vec2::from(size))
-        .with_theme(theme)
-        .renderer(Patient(WgpuTestRenderer::from_setup(setup)))
-        .build_eframe(move |cc| {
-            dashpot::window::theme::install(&cc.egui_ctx);
-            cc.egui_ctx.set_theme(theme);
-            let mut app = App::default();
-            if let Some(file) = file {
-                app.open(&cc.egui_ctx, file);
-                app.settle(&cc.egui_ctx).unwrap();
-            }
-            app
-        });
+    rendered(file, theme, size, Patient(WgpuTestRenderer::from_setup(setup)))
+}
+
+fn rendered(
+    file: Option<PathBuf>,
+    theme: egui::Theme,
+    size: [f32; 2],
+    renderer: impl TestRenderer + 'static,
+) -> Harness<'static, App> {
+    let mut harness =
+        Harness::builder().with_size(egui::Vec2::from(size)).with_theme(theme).renderer(renderer).build_eframe(
+            move |cc| {
+                dashpot::window::theme::install(&cc.egui_ctx);
+                cc.egui_ctx.set_theme(theme);
+                let mut app = App::default();
+                if let Some(file) = file {
+                    app.open(&cc.egui_ctx, file);
+                    app.settle(&cc.egui_ctx).unwrap();
+                }
+                app
+            },
+        );
     harness.run_steps(3);
     harness
 }
@@ -186,6 +201,19 @@ impl TestRenderer for Patient {
             }
         }
         last
+    }
+}
+
+/// Draws nothing.
+struct Unseen;
+
+impl TestRenderer for Unseen {
+    fn handle_delta(&mut self, delta: &mut egui::TexturesDelta) {
+        delta.clear();
+    }
+
+    fn render(&mut self, _: &egui::Context, _: &egui::FullOutput) -> Result<image::RgbaImage, String> {
+        Err("this window draws nothing".to_owned())
     }
 }
 

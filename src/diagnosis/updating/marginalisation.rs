@@ -88,9 +88,10 @@ impl Marginalisation {
         rows
     }
 
-    /// The parameters (standardised) that fit the whitened residual `rows`, which was taken at the reference.
+    /// The parameters (standardised) that fit the whitened residual `rows`, which was taken at the reference; those of the reference
+    /// where slopes are beyond all numbers.
     pub(crate) fn solve(&self, rows: &[f64]) -> Vec<f64> {
-        let Some(factor) = &self.factor else { return Vec::new() };
+        let Some(factor) = &self.factor else { return self.updating.standardised() };
         let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
         let right = Mat::from_fn(self.slopes.len(), 1, |k, _| dot(&self.slopes[k], &full));
         let solved = factor.solve(right.as_ref());
@@ -99,7 +100,7 @@ impl Marginalisation {
 
     /// The parameters (standardised) that fit the whitened residual `rows` where its variance is `misfit` rather than 1.
     pub(crate) fn solve_with_misfit(&self, rows: &[f64], misfit: f64) -> Vec<f64> {
-        let Some(mut normal) = self.normal.clone() else { return Vec::new() };
+        let Some(mut normal) = self.normal.clone() else { return self.updating.standardised() };
         let q = self.slopes.len();
         let full: Vec<f64> = rows.iter().zip(&self.offset).map(|(r, o)| r + o).collect();
         (0..q).for_each(|k| normal[(k, k)] += misfit - 1.0);
@@ -190,6 +191,15 @@ mod tests {
         for moved in [[0.01, 0.0], [-0.01, 0.0], [0.0, 0.01], [0.0, -0.01]] {
             assert!(cost(&[u[0] + moved[0], u[1] + moved[1]]) > cost(&u));
         }
+    }
+
+    /// Random events set a source so large that the response to it was beyond all numbers.
+    #[test]
+    fn slopes_beyond_all_numbers_leave_the_parameters_where_they_are() {
+        let updating = two().updating;
+        let m = Marginalisation::new(updating.clone(), vec![vec![f64::INFINITY, 1.0], vec![1.0, 2.0]]);
+        assert_eq!(m.solve(&[1.0, 2.0]), updating.standardised());
+        assert_eq!(m.solve_with_misfit(&[1.0, 2.0], 3.0), updating.standardised());
     }
 
     #[test]

@@ -42,9 +42,9 @@ pub enum TimeError {
         /// Period, s.
         period_s: f64,
     },
-    /// Gauss and Seidel did not come to rest.
+    /// Gauss and Seidel did not come to rest, or a force has no answer.
     #[error(
-        "the forces of a time step at {time_s:.6e} s were not found: take more steps a period (`--steps`) than {steps}"
+        "the forces of a time step at {time_s:.6e} s were not found: a spring that gives way may have let the motion grow without bounds; else take more steps a period (`--steps`) than {steps}"
     )]
     StepFailed {
         /// Time, s.
