@@ -93,6 +93,18 @@ fn pictures_with_words_of_200_per_cent() {
 }
 
 #[test]
+fn pictures_with_words_of_150_per_cent() {
+    let mut results = pictures(&beam(), &[Stage::Result], LARGE_WORDS);
+    results.extend(pictures(&friction(), &[Stage::Explain], LARGE_WORDS));
+}
+
+#[test]
+fn pictures_with_words_of_80_per_cent() {
+    let mut results = pictures(&beam(), &[Stage::Result], SMALLEST_WORDS);
+    results.extend(pictures(&friction(), &[Stage::Explain], SMALLEST_WORDS));
+}
+
+#[test]
 fn legible_on_a_large_screen() {
     legible(&beam(), &stages(), LARGE);
     legible(&friction(), &[Stage::Explain], LARGE);
