@@ -212,10 +212,20 @@ fn millimetres() {
     named(&CHAIN, Tests::Both, as_is, ("acc@4", 1e3), large);
 }
 
+fn exchanged_cables_of_the_beam(tests: Tests) {
+    let cables = |header: &str| exchanged(header, "acc@5", "acc@11");
+    named(&BEAM, tests, cables, ("none", 1.0), "acc@11 and acc@5 look exchanged");
+}
+
 #[test]
 fn exchanged_cables_of_a_beam() {
-    let cables = |header: &str| exchanged(header, "acc@5", "acc@11");
-    named(&BEAM, Tests::Both, cables, ("none", 1.0), "acc@11 and acc@5 look exchanged");
+    exchanged_cables_of_the_beam(Tests::Decay);
+}
+
+#[test]
+#[ignore = "half a minute: decays and hammers together; the test above has decays alone"]
+fn exchanged_cables_of_a_beam_in_decays_and_hammers() {
+    exchanged_cables_of_the_beam(Tests::Both);
 }
 
 #[test]
