@@ -56,7 +56,7 @@ fn the_error_of_smooth_laws_falls_with_the_square_of_the_step() {
 /// `m x'' + c x' + k x + k_2 x^2 = F cos(w t)` pulls back for `x > -k / k_2` only: a force of five times the largest of that well takes
 /// the mass beyond it, and nothing stops it there.
 #[test]
-fn a_mass_that_leaves_the_reach_of_its_spring_is_refused() {
+fn a_mass_driven_beyond_the_limit_point_of_its_spring_is_refused() {
     let sources = [source(Effect::Viscous, &[0], &[0.2]), source(Effect::QuadraticStiffness, &[0], &[5000.0])];
     let excitation = Excitation::sine(8.2, 0, c64::new(2.5, 0.0));
     let mut model = TimeModel::new(&oscillator(1.0, 100.0), &sources, &excitation, 4000).unwrap();

@@ -91,7 +91,7 @@ impl Element {
 }
 
 /// Root `x` of `x + w F(x) = b` by Newton's method from `start`, kept in a bracket for laws that only resist; not a number where there
-/// is none, as beyond the reach of a spring that gives way. `mean` gives the force and its slope by `x`.
+/// is none, as beyond the limit point of a softening spring. `mean` gives the force and its slope by `x`.
 fn displacement(w: f64, b: f64, start: f64, mean: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut x = start;
     let mut bracket = [f64::NEG_INFINITY, f64::INFINITY];
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spring_that_gives_way_holds_up_to_its_limit_only() {
+    fn a_softening_spring_holds_up_to_its_limit_point_only() {
         // x - x^2 = b has roots up to b = 1/4.
         let root = |b: f64| displacement(1.0, b, b, |x| [-x * x, -2.0 * x]);
         assert!((root(0.2) - (1.0 - 0.2_f64.sqrt()) / 2.0).abs() < 1e-12);

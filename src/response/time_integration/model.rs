@@ -44,7 +44,7 @@ pub enum TimeError {
     },
     /// Gauss and Seidel did not come to rest, or a force has no answer.
     #[error(
-        "the forces of a time step at {time_s:.6e} s were not found: a spring that gives way may have let the motion grow without bounds; else take more steps a period (`--steps`) than {steps}"
+        "the forces of a time step at {time_s:.6e} s were not found: a softening spring may have been driven beyond its limit point, from where the motion grows without bounds; else take more steps a period (`--steps`) than {steps}"
     )]
     StepFailed {
         /// Time, s.
