@@ -6,6 +6,7 @@ use crate::common::models::three_masses;
 use dashpot::control::Control;
 use dashpot::diagnosis::Problem;
 use dashpot::diagnosis::diagnose::diagnose;
+use dashpot::diagnosis::result::Added;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::measurement::{Channel, ChannelFit, HarmonicFit, Quantity, Run};
 use dashpot::response::harmonic_balance::{Excitation, ForwardModel, Settings};
@@ -30,35 +31,64 @@ fn channel(quantity: Quantity, dof: usize, mut amplitudes: Vec<c64>, random: &mu
     }
 }
 
-#[test]
-fn a_friction_force_is_known_no_better_than_the_force_that_was_measured() {
+fn dashpot(c: f64) -> Source {
+    Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[c])
+}
+
+/// Runs of three masses with `sources` whose channels of force and of motion read so many times what is there.
+fn runs(sources: &[Source], [force_reads, first_reads]: [f64; 2]) -> Vec<Run> {
     let mut random = Random::new(11);
-    let dashpot = |c: f64| Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[c]);
-    let friction = Source::known(Effect::Coulomb, Place::Dofs(vec![2]), &[FRICTION]);
-    let sources = [dashpot(2.0), friction.clone()];
-    let model = ForwardModel::new(&three_masses([1.01, 0.99, 1.012]), &sources).unwrap();
+    let model = ForwardModel::new(&three_masses([1.01, 0.99, 1.012]), sources).unwrap();
     let mut runs = Vec::new();
     for omega in [60.0, 64.0, 66.0, 150.0, 158.0] {
         for force in [1.0, 3.0, 9.0] {
             let excitation = Excitation::sine(omega, 1, c64::new(force, 0.0));
             let response = model.at(omega);
             let response =
-                response.respond(&sources, &excitation, &Settings::default(), None, &Control::unattended()).unwrap();
+                response.respond(sources, &excitation, &Settings::default(), None, &Control::unattended()).unwrap();
             let still = c64::new(0.0, 0.0);
-            let read = vec![c64::new(force * READS, 0.0), still, still];
+            let read = vec![c64::new(force * force_reads, 0.0), still, still];
             let mut channels = vec![channel(Quantity::Force, 1, read, &mut random)];
-            let motion = |d: usize| (1..=3).map(|h| response.amplitude(d, h)).collect();
+            let reads = |d: usize| if d == 0 { first_reads } else { 1.0 };
+            let motion = |d: usize| (1..=3).map(|h| response.amplitude(d, h) * reads(d)).collect();
             channels.extend((0..3).map(|d| channel(Quantity::Displacement, d, motion(d), &mut random)));
             let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
             runs.push(Run::from_harmonics(format!("{omega} {force}"), None, true, fit, &[]));
         }
     }
+    runs
+}
+
+/// The first suggestion beside the model as it is stated.
+fn first_suggestion(runs: &[Run]) -> Added {
     let (stated, known) = (three_masses([1.0; 3]), [dashpot(2.3)]);
-    let problem = Problem { structure: &stated, sources: &known, runs: &runs };
-    let diagnosis = diagnose(&problem, &Control::unattended()).unwrap();
-    let first = &diagnosis.suggestions[0].added;
+    let problem = Problem { structure: &stated, sources: &known, runs };
+    diagnose(&problem, &Control::unattended()).unwrap().suggestions[0].added.clone()
+}
+
+#[test]
+fn a_friction_force_is_known_no_better_than_the_force_that_was_measured() {
+    let friction = Source::known(Effect::Coulomb, Place::Dofs(vec![2]), &[FRICTION]);
+    let first = first_suggestion(&runs(&[dashpot(2.0), friction.clone()], [READS, 1.0]));
     assert!(first.source.is_same(&friction), "{:?}", first.source);
     let (value, deviation) = (first.source.parameters[0], first.deviations[0]);
     assert!((value - FRICTION).abs() < 3.0 * deviation, "{value} +- {deviation}");
     assert!((0.003..0.03).contains(&(deviation / value)), "{value} +- {deviation}");
+}
+
+/// A wrong sensitivity is no error of some per cent: the response is linear in the inverse of what the channel reads.
+#[test]
+fn a_channel_that_reads_a_fraction_or_a_multiple_of_its_quantity_is_named() {
+    for (reads, name, gain) in [
+        ([0.55, 1.0], "force@2", 0.55),
+        ([0.3, 1.0], "force@2", 0.3),
+        ([2.6, 1.0], "force@2", 2.6),
+        ([1.0, 0.4], "disp@1", 0.4),
+    ] {
+        let first = first_suggestion(&runs(&[dashpot(2.0)], reads));
+        let expected = Source::known(Effect::Gain, Place::Channel(name.into()), &[gain]);
+        assert!(first.source.is_same(&expected), "{name} {gain}: {:?}", first.source);
+        let value = first.source.parameters[0];
+        assert!((value / gain - 1.0).abs() < 0.05, "{name} {gain}: {value}");
+    }
 }

@@ -11,8 +11,8 @@ use faer::c64;
 /// Secant steps to the mean of a motion, and the share of it below which it rests.
 const SECANTS: usize = 8;
 const AT_REST: f64 = 1e-6;
-/// Bounds of the gain of a channel while it is searched.
-pub(crate) const GAINS: [f64; 2] = [0.5, 2.0];
+/// Bounds of the gain of a channel: beyond a wrong range or sensitivity it is no channel of this motion.
+pub(crate) const GAINS: [f64; 2] = [0.05, 20.0];
 /// Delays that are tried: up to half the longest period, beyond which a channel is as well early; in steps of half a radian at the
 /// highest frequency, within the valley of half a turn from which Newton's method arrives; no more than so many either way.
 const OF_LONGEST_PERIOD: f64 = 0.5;
@@ -71,31 +71,34 @@ impl PlaceData {
 
     /// Fits the error `effect` of this channel; `None` if its value is out of range.
     pub(super) fn fit_channel(&self, effect: Effect, law: &dyn ChannelLaw) -> Option<LawFit> {
-        let misfit = |p: f64| -> f64 {
-            let rows = self.rows(1.0, |r, order| self.channel_error(law, p, r, order));
+        // What a factor does to what is read is linear in its inverse.
+        let parameter = |x: f64| if law.turns_phase() { x } else { x.recip() };
+        let misfit = |x: f64| -> f64 {
+            let rows = self.rows(1.0, |r, order| self.channel_error(law, parameter(x), r, order));
             dot(&rows, &rows)
         };
         let step = law.small_step(self.range.omega.max(1e-3));
-        let mut p = if law.turns_phase() { self.coarse_delay(law) } else { law.neutral() };
+        let mut x = if law.turns_phase() { self.coarse_delay(law) } else { law.neutral().recip() };
         for _ in 0..12 {
-            // Newton's method by differences: the misfit is nearly quadratic in the only parameter.
-            let (low, mid, high) = (misfit(p - step), misfit(p), misfit(p + step));
+            // Newton's method by differences: the misfit is nearly quadratic in the only variable.
+            let (low, mid, high) = (misfit(x - step), misfit(x), misfit(x + step));
             let curvature = (high - 2.0 * mid + low) / (step * step);
             if curvature <= 0.0 {
                 break;
             }
             let change = -(high - low) / (2.0 * step) / curvature;
-            p += change;
+            x += change;
             if !law.turns_phase() {
-                p = p.clamp(GAINS[0], GAINS[1]);
+                x = x.clamp(GAINS[1].recip(), GAINS[0].recip());
             }
         }
+        let p = parameter(x);
         let at_a_bound = !law.turns_phase() && (p <= GAINS[0] || p >= GAINS[1]);
         if !p.is_finite() || at_a_bound || !effect.parameters()[0].allows(p) {
             return None;
         }
         let source = Source { effect, place: self.spot.place(), state: State::Known, parameters: vec![p] };
-        Some(LawFit { source, misfit: misfit(p) })
+        Some(LawFit { source, misfit: misfit(x) })
     }
 
     /// The delay, to a fraction of the shortest period, that leaves least of the free errors of this channel at the fundamentals: a
