@@ -45,12 +45,9 @@ impl Search<'_> {
         let start = self.carried(bare, *level, self.levels.len() - 1)?;
         let corrected = self.corrected_whole(&start)?;
         let mut detuned = before;
-        self.conclude_told(
-            &self.told(&corrected)?,
-            misfit(&corrected),
-            std::slice::from_ref(&corrected),
-            &mut detuned,
-        )?;
+        let told = self.told(&corrected)?;
+        let error = self.promised(&told, &told.effects)?;
+        self.conclude_told((&told, error), misfit(&corrected), std::slice::from_ref(&corrected), &mut detuned)?;
         if detuned.verdict != Verdict::Unexplained {
             *diagnosis = detuned;
         }
@@ -79,7 +76,7 @@ impl Search<'_> {
         // Where time is up the parts are told as the fit has them, whatever else could stand for them.
         let told = if late && !corrections.is_empty() { None } else { Some(self.told(best)?) };
         if let Some(told) = told.as_ref().filter(|_| corrections.is_empty()) {
-            return self.conclude_with(told, &last, diagnosis);
+            return self.conclude_with((told, self.promised(told, &told.effects)?), &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
         let structure = self.structure_with(&factors(&corrections));
@@ -88,15 +85,15 @@ impl Search<'_> {
         let search = Search::new(&records, &plain, known, self.control);
         let fits: Vec<FittedRecords> = last.iter().map(|fit| beside_parts(fit, &records)).collect();
         let beside_parts = search.told(&fits[0])?;
+        let left = search.promised(&beside_parts, &beside_parts.effects)?;
         if let Some(told) = told {
-            let [left, before] =
-                [search.promised(&beside_parts, &beside_parts.effects)?, self.promised(&told, &told.effects)?];
+            let before = self.promised(&told, &told.effects)?;
             if left > BETTER * before {
-                return self.conclude_with(&told, &last, diagnosis);
+                return self.conclude_with((&told, before), &last, diagnosis);
             }
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
-        search.conclude_with(&beside_parts, &fits, diagnosis)
+        search.conclude_with((&beside_parts, left), &fits, diagnosis)
     }
 
     /// The fits of a search whose time was up: without the corrections that are no more than their priors allow, of which nobody was asked
@@ -116,16 +113,17 @@ impl Search<'_> {
         search.promised(&beside_parts(fit, &records), &fit.effects)
     }
 
-    /// Concludes with what is told, masses and springs that are errors of the model made corrections of it.
+    /// Concludes with what is told, with the error that it promises, masses and springs that are errors of the model made corrections of
+    /// it.
     fn conclude_with(
         &self,
-        told: &FittedRecords,
+        (told, error): (&FittedRecords, f64),
         found: &[FittedRecords],
         diagnosis: &mut Diagnosis,
     ) -> Result<(), RecordError> {
         let model_errors = ModelErrors::of(self.records.structure, told);
         if model_errors.sources.is_empty() {
-            return self.conclude_told(told, misfit(told), found, diagnosis);
+            return self.conclude_told((told, error), misfit(told), found, diagnosis);
         }
         // What a spring or mass changes of a part is made a number of the structure, and the rest is fitted beside it.
         let without = |fit: &FittedRecords| {
@@ -141,7 +139,8 @@ impl Search<'_> {
         let corrected = search.told(&search.corrected_whole(&fits[0])?)?;
         model_errors.corrections.iter().for_each(|more| correct(&mut diagnosis.corrections, more));
         let left = if corrected.effects.is_empty() { misfit(told) } else { misfit(&corrected) };
-        search.conclude_told(&corrected, left, &fits, diagnosis)
+        let error = search.promised(&corrected, &corrected.effects)?;
+        search.conclude_told((&corrected, error), left, &fits, diagnosis)
     }
 
     /// A fit on whole records, with deviations of its own.
@@ -149,15 +148,15 @@ impl Search<'_> {
         self.fit(self.levels.len() - 1, fit, 1.0, REFITTING)
     }
 
-    /// Says what is told; `left` is the misfit by which it is judged, `fits` are the sets of the last size.
+    /// Says what is told, with the error that it promises; `left` is the misfit by which it is judged, `fits` are the sets of the last
+    /// size.
     fn conclude_told(
         &self,
-        told: &FittedRecords,
+        (told, error): (&FittedRecords, f64),
         left: f64,
         fits: &[FittedRecords],
         diagnosis: &mut Diagnosis,
     ) -> Result<(), RecordError> {
-        let error = self.promised(told, &told.effects)?;
         diagnosis.steps.push(Step { added: added(told), error, misfit: misfit(told) });
         diagnosis.corrections.extend(corrections(self.records, told));
         diagnosis.test_errors = self.test_errors(told, error)?;

@@ -18,8 +18,7 @@ impl Search<'_> {
         in_free_motion: bool,
     ) -> Vec<Option<FittedRecords>> {
         let groups = by_place(starts);
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
+        let problem = self.problem(level, 1.0);
         let fits = |group: &Vec<usize>| {
             let mut held: Option<Held> = None;
             let mut fit = |k: &usize| {

@@ -41,9 +41,9 @@ impl Search<'_> {
             return start;
         }
         let (records, kept) = (&self.levels[level], self.records.kept);
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
-        let motions = self.motions.get_or_init(|| measured_motions(self.records, &alone));
+        let problem = self.problem(level, 1.0);
+        // Whoever waits for another to make them must not be lent to what makes them.
+        let motions = self.motions.get_or_init(|| measured_motions(self.records, &self.control.alone()));
         let own = |k: usize| start.initial[k].clone();
         let shown = |k: usize| measured_state(motions, &records.list[k], kept).unwrap_or_else(|| own(k));
         let at_rest = |k: usize| if records.list[k].forces.is_empty() { own(k) } else { vec![0.0; 2 * kept] };
@@ -64,9 +64,8 @@ impl Search<'_> {
     /// A start whose first periods are fitted before the whole parts where it leaves more than `most` of them: with a law that is not
     /// linear it has lost the phase on the way.
     pub(super) fn in_phase(&self, level: usize, start: FittedRecords, most: f64) -> Result<FittedRecords, RecordError> {
-        let alone = self.control.alone();
         let nonlinear = start.effects.iter().any(|e| !e.effect.is_linear());
-        let lost = || self.problem(level, 1.0, &alone).left(&start).is_ok_and(|left| left.chi_square > most);
+        let lost = || self.problem(level, 1.0).left(&start).is_ok_and(|left| left.chi_square > most);
         if nonlinear && lost() { self.fit_first_periods(level, &start, IN_PHASE) } else { Ok(start) }
     }
 
@@ -77,7 +76,7 @@ impl Search<'_> {
         start: &FittedRecords,
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        self.problem(level, FIRST, &self.control.alone()).begin(start, rounds)
+        self.problem(level, FIRST).begin(start, rounds)
     }
 }
 

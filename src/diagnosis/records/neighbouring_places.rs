@@ -46,15 +46,14 @@ impl Search<'_> {
         };
         let tried = |effects: &[Source]| {
             let known = best.effects[..best.effects.len() - 1].iter().any(|e| e.is_same(&effects[effects.len() - 1]));
-            known || self.given_up.holds(effects) || found.iter().any(|f| is_same_set(&f.effects, effects))
+            known || self.given_up.holds(effects, best) || found.iter().any(|f| is_same_set(&f.effects, effects))
         };
         let mut places = next_to(&law.place, &self.records.structure.neighbours());
         places.retain(|place| !tried(&moved(place.clone())));
         if places.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
+        let problem = self.problem(level, 1.0);
         let test = match ScoreTest::new(&problem, best).and_then(|test| test.without(law)) {
             Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
             other => other?,

@@ -330,7 +330,7 @@ mod tests {
         let start = FittedRecords::start(&search.levels[whole], &[]);
         let start = search.carried(&start, whole, 0).unwrap();
         let parts = &search.levels[0];
-        let fit = search.problem(0, 1.0, &control).improve(&start, 20).unwrap();
+        let fit = search.problem(0, 1.0).improve(&start, 20).unwrap();
         let of = |index: usize| -> Vec<f64> {
             parts.list.iter().zip(&fit.shifts).filter(|(r, _)| r.index == index).map(|(_, shift)| *shift).collect()
         };
@@ -338,6 +338,6 @@ mod tests {
         assert!(first.len() > 1 && second.len() > 1, "{first:?} {second:?}");
         assert!(first.iter().all(|s| *s == first[0]) && second.iter().all(|s| *s == second[0]), "{first:?} {second:?}");
         assert!((second[0] - first[0] - 0.003).abs() < 6e-4, "{first:?} {second:?}");
-        assert_eq!(search.problem(0, 1.0, &control).unused_shifts(&fit).len(), parts.list.len() - 2);
+        assert_eq!(search.problem(0, 1.0).unused_shifts(&fit).len(), parts.list.len() - 2);
     }
 }

@@ -1,5 +1,6 @@
 //! Which sets of effects are worth carrying on: rivals that differ in kind, and none that was given up on shorter parts.
 
+use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use crate::effects::{Effect, Source};
 use std::sync::{Mutex, PoisonError};
@@ -7,6 +8,9 @@ use std::sync::{Mutex, PoisonError};
 /// Most rivals whose last law is of the kin of that of a better one at the same place, or that law at another place: laws of one kin share
 /// their limits and bend to the same data, neighbouring places see the same motion, so that many of them say no more than two.
 const MOST_KIN: usize = 2;
+/// Evidence by which a fit is so far behind one that leaves no more than noise that it is not begun again on longer parts: a descent that
+/// ended after some steps has less to gain there.
+const FAR: f64 = 240.0;
 
 /// The first `count` of some fits, best first; of laws of one kin at a place, and of one law, the first [`MOST_KIN`] only, as long as there
 /// are others.
@@ -49,20 +53,42 @@ pub(super) fn is_same_set(a: &[Source], b: &[Source]) -> bool {
 
 /// Sets of effects that a search no longer follows.
 #[derive(Debug, Default)]
-pub(super) struct GivenUp(Mutex<Vec<Vec<Source>>>);
+pub(super) struct GivenUp {
+    hopeless: Sets,
+    behind: Sets,
+}
 
-impl GivenUp {
-    /// Whether a set, in whatever order, was given up.
-    pub(super) fn holds(&self, effects: &[Source]) -> bool {
+#[derive(Debug, Default)]
+struct Sets(Mutex<Vec<Vec<Source>>>);
+
+impl Sets {
+    /// Whether a set is among them, in whatever order.
+    fn holds(&self, effects: &[Source]) -> bool {
         let sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         sets.iter().any(|set| is_same_set(set, effects))
     }
 
-    /// Gives up the fits that leave `hopeless`ly much beside the least that any of them leaves.
-    pub(super) fn add_all(&self, found: &[FittedRecords], hopeless: impl Fn(&FittedRecords, f64) -> bool) {
-        let least = found.iter().map(|f| f.chi_square).fold(f64::INFINITY, f64::min);
+    fn add<'f>(&self, fits: impl Iterator<Item = &'f FittedRecords>) {
         let mut sets = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        sets.extend(found.iter().filter(|f| hopeless(f, least)).map(|f| f.effects.clone()));
+        sets.extend(fits.map(|f| f.effects.clone()));
+    }
+}
+
+impl GivenUp {
+    /// Whether a set is not to be begun beside `best`: it left hopelessly much, or is far behind where `best` leaves no more than noise.
+    pub(super) fn holds(&self, effects: &[Source], best: &FittedRecords) -> bool {
+        self.hopeless.holds(effects) || (misfit(best) < AGREES && self.behind.holds(effects))
+    }
+
+    /// Gives up the fits that leave `hopeless` times the least that any of them leaves, or that `noise` times the number of samples; and,
+    /// beside one that leaves no more than noise, those that are [`FAR`] behind it.
+    pub(super) fn add_all(&self, found: &[FittedRecords], hopeless: f64, noise: f64) {
+        let Some(best) = found.iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square)) else { return };
+        let least = |f: &FittedRecords| best.chi_square.max(noise * f.count as f64);
+        self.hopeless.add(found.iter().filter(|f| f.chi_square > hopeless * least(f)));
+        let (unit, explained) = (scale(best), misfit(best) < AGREES);
+        let far = |f: &&FittedRecords| explained && evidence(f, unit) > evidence(best, unit) + FAR;
+        self.behind.add(found.iter().filter(far));
     }
 }
 
@@ -100,7 +126,21 @@ mod tests {
     fn what_leaves_hopelessly_much_on_short_parts_is_given_up() {
         let (best, other) = (fit(Effect::Dahl, 1.0), fit(Effect::Gap, 100.0));
         let given_up = GivenUp::default();
-        given_up.add_all(&[best.clone(), other.clone()], |f, least| f.chi_square > 12.0 * least);
-        assert!(given_up.holds(&other.effects) && !given_up.holds(&best.effects));
+        given_up.add_all(&[best.clone(), other.clone()], 12.0, 0.5);
+        assert!(given_up.holds(&other.effects, &best) && !given_up.holds(&best.effects, &best));
+    }
+
+    /// Twice the noise is far behind on 1000 samples, as long as the best leaves no more than noise; on 100 it is not.
+    #[test]
+    fn what_is_far_behind_an_explanation_is_given_up_while_it_explains() {
+        let of = |effect, misfit: f64, count: usize| FittedRecords { count, ..fit(effect, misfit * count as f64) };
+        let (gap, lost) = (of(Effect::Gap, 2.0, 1000), of(Effect::Dahl, 1.5, 1000));
+        for (count, behind) in [(1000, true), (100, false)] {
+            let (best, other) = (of(Effect::Dahl, 1.0, count), of(Effect::Gap, 2.0, count));
+            let given_up = GivenUp::default();
+            given_up.add_all(&[best.clone(), other], 12.0, 0.5);
+            assert_eq!(given_up.holds(&gap.effects, &best), behind, "{count} samples");
+            assert!(!given_up.holds(&gap.effects, &lost), "{count} samples");
+        }
     }
 }

@@ -249,8 +249,7 @@ impl Search<'_> {
             return (Vec::new(), 0.0);
         }
         let records = &self.levels[level];
-        let alone = self.control.alone();
-        let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: &alone };
+        let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: self.control };
         let Ok(test) = ScoreTest::new(&problem, fit) else { return (Vec::new(), f64::INFINITY) };
         let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
         let at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {

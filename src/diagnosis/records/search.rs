@@ -115,23 +115,13 @@ impl Search<'_> {
         share: f64,
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        self.fit_by(level, start, (share, rounds), self.control)
-    }
-
-    fn fit_by(
-        &self,
-        level: usize,
-        start: &FittedRecords,
-        (share, rounds): (f64, [usize; 2]),
-        control: &Control,
-    ) -> Result<FittedRecords, RecordError> {
-        self.problem(level, share, control).begin(start, rounds)
+        self.problem(level, share).begin(start, rounds)
     }
 
     /// The fit of the first `share` of every part of `level`, everything free.
-    pub(super) fn problem<'s>(&'s self, level: usize, share: f64, control: &'s Control) -> FitProblem<'s> {
+    pub(super) fn problem(&self, level: usize, share: f64) -> FitProblem<'_> {
         let records = &self.levels[level];
-        FitProblem { records, free: Free::all(records), share, control }
+        FitProblem { records, free: Free::all(records), share, control: self.control }
     }
 
     /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
@@ -209,14 +199,13 @@ impl Search<'_> {
         starts.truncate(FURTHER[usize::from(level > 0)]);
         starts.splice(0..0, scored);
         starts.retain(|s| s.effects.split_last().is_none_or(|(new, others)| !self.repeats(others, new)));
-        let alone = self.control.alone();
         let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
         let mut found: Vec<FittedRecords> = Vec::new();
         add_begun(&mut found, self.first_fits(level, &starts, free));
         self.control.check()?;
         keep(&mut found, FOLLOWED, HOPELESS[0]);
-        let follow = |k: usize| self.fit_by(level, &found[k], (1.0, FOLLOWING), &alone).ok();
+        let follow = |k: usize| self.fit(level, &found[k], 1.0, FOLLOWING).ok();
         let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
         keep(&mut followed, FOLLOWED, HOPELESS[0]);
         self.control.check()?;
@@ -241,8 +230,7 @@ impl Search<'_> {
 
     /// The starts that leave least before anything is fitted, [`BEGUN`] of them; those of other laws than they before others of the same.
     fn nearest(&self, level: usize, starts: Vec<FittedRecords>, unit: f64) -> Vec<FittedRecords> {
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
+        let problem = self.problem(level, 1.0);
         let left = |k: usize| problem.left(&starts[k]).map_or(f64::INFINITY, |left| left.total(unit));
         let mut order: Vec<(f64, usize)> = self.control.map(starts.len(), left).into_iter().zip(0..).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -272,9 +260,8 @@ impl Search<'_> {
             self.in_phase(level + 1, start, most).ok()
         };
         let starts: Vec<FittedRecords> = self.control.map(few.len(), carry).into_iter().flatten().collect();
-        let alone = self.control.alone();
         let longer = |list: &[FittedRecords], rounds| -> Vec<FittedRecords> {
-            let fit = |k: usize| self.fit_by(level + 1, &list[k], (1.0, rounds), &alone).ok();
+            let fit = |k: usize| self.fit(level + 1, &list[k], 1.0, rounds).ok();
             self.control.map(list.len(), fit).into_iter().flatten().collect()
         };
         // What leaves hopelessly much after the first rounds is not followed further.
@@ -297,7 +284,7 @@ impl Search<'_> {
         let mut starts = [wider, self.begun_plainer(level, &found)].concat();
         // What is wider may have come further than the plainer law that it is all but.
         for _ in 0..2 {
-            starts.retain(|s| !self.given_up.holds(&s.effects));
+            starts.retain(|s| found.first().is_none_or(|best| !self.given_up.holds(&s.effects, best)));
             if starts.is_empty() {
                 break;
             }
@@ -318,9 +305,8 @@ impl Search<'_> {
         mut found: Vec<FittedRecords>,
         starts: &[FittedRecords],
     ) -> Result<Vec<FittedRecords>, RecordError> {
-        let alone = self.control.alone();
         let fits = |list: &[FittedRecords], rounds| {
-            self.control.map(list.len(), |k| self.fit_by(level, &list[k], (1.0, rounds), &alone).ok())
+            self.control.map(list.len(), |k| self.fit(level, &list[k], 1.0, rounds).ok())
         };
         let mut begun = Vec::new();
         add_begun(&mut begun, self.first_fits(level, starts, false));
@@ -330,7 +316,7 @@ impl Search<'_> {
         add_begun(&mut found, others.into_iter().map(Some).collect());
         self.control.check()?;
         if !self.control.is_late() {
-            self.given_up.add_all(&found, |f, least| f.chi_square > HOPELESS[0] * least.max(NOISE * f.count as f64));
+            self.given_up.add_all(&found, HOPELESS[0], NOISE);
         }
         Ok(self.sorted(level, found))
     }

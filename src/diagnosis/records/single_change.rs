@@ -29,8 +29,9 @@ impl Search<'_> {
     /// not.
     pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
         let records = self.records;
-        let fit = |start: &FittedRecords, control| {
-            FitProblem { records, free: Free::but_modes(records), share: 1.0, control }.improve(start, STEPS)
+        let fit = |start: &FittedRecords| {
+            FitProblem { records, free: Free::but_modes(records), share: 1.0, control: self.control }
+                .improve(start, STEPS)
         };
         if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES {
             return Ok(Vec::new());
@@ -44,15 +45,14 @@ impl Search<'_> {
             parts: vec![0.0; records.parts.len()],
             ..corrected.clone()
         };
-        if misfit(&fit(&plain, self.control)?) < AGREES {
+        if misfit(&fit(&plain)?) < AGREES {
             return Ok(Vec::new());
         }
-        let alone = self.control.alone();
         let starts = changes(records, corrected);
         let begin = |k: usize| {
             let (stiffness, source) = &starts[k];
             let start = FittedRecords { stiffness: *stiffness, effects: vec![source.clone()], ..plain.clone() };
-            fit(&start, &alone).ok()
+            fit(&start).ok()
         };
         let count = starts.len().min(FITTED);
         let mut found: Vec<FittedRecords> = self.control.map(count, begin).into_iter().flatten().collect();

@@ -134,8 +134,7 @@ impl Search<'_> {
             start.effects.push(source);
             start
         };
-        let alone = self.control.alone();
-        let problem = self.problem(level, 1.0, &alone);
+        let problem = self.problem(level, 1.0);
         let leaves_less = |start: &FittedRecords| {
             let same = |f: &&FittedRecords| is_same_set(&f.effects, &start.effects);
             let Some(own) = found.iter().find(same) else { return true };

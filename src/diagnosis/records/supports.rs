@@ -13,7 +13,6 @@ use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free};
 use super::search::Search;
-use crate::control::Control;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::structure::Part;
@@ -39,8 +38,7 @@ impl Search<'_> {
             return Ok(Vec::new());
         }
         let base = self.carried(bare, self.levels.len() - 1, 0)?;
-        let alone = self.control.alone();
-        let Some(rigid) = self.with_supports(&base, &[], 1.0, &alone) else { return Ok(Vec::new()) };
+        let Some(rigid) = self.with_supports(&base, &[], 1.0) else { return Ok(Vec::new()) };
         let mut groups: Vec<Vec<Part>> = supports.iter().map(|s| vec![*s]).collect();
         if supports.len() > 1 {
             groups.push(supports);
@@ -48,7 +46,7 @@ impl Search<'_> {
         let tries: Vec<(usize, f64)> = (0..groups.len()).flat_map(|g| FACTORS.map(|f| (g, f))).collect();
         let one = |k: usize| {
             let (g, factor) = tries[k];
-            Some((g, (factor, self.with_supports(&base, &groups[g], factor, &alone)?)))
+            Some((g, (factor, self.with_supports(&base, &groups[g], factor)?)))
         };
         let found: Vec<(usize, Tried)> = self.control.map(tries.len(), one).into_iter().flatten().collect();
         self.control.check()?;
@@ -62,19 +60,13 @@ impl Search<'_> {
         if best.1.chi_square > LEFT * rigid.chi_square || evidence(&rigid, unit) - evidence(&best.1, unit) < GAIN {
             return Ok(Vec::new());
         }
-        let (factor, deviation) = self.refined(&base, &groups[g], best, &alone);
+        let (factor, deviation) = self.refined(&base, &groups[g], best);
         let correction = |part: &Part| Correction { parameter: UpdatingParameter::Structure(*part), factor, deviation };
         Ok(groups[g].iter().map(correction).collect())
     }
 
     /// The corrected model on the shortest parts with these supports at a factor; `None` where it runs away.
-    fn with_supports(
-        &self,
-        base: &FittedRecords,
-        supports: &[Part],
-        factor: f64,
-        control: &Control,
-    ) -> Option<FittedRecords> {
+    fn with_supports(&self, base: &FittedRecords, supports: &[Part], factor: f64) -> Option<FittedRecords> {
         let factors: Vec<(Part, f64)> = supports.iter().map(|s| (*s, factor)).collect();
         let structure = self.records.structure.with_factors(&factors);
         let records = self.levels[0].on(&structure).ok()?;
@@ -82,21 +74,21 @@ impl Search<'_> {
         let free = Free { shifts: false, ..Free::all(&records) };
         let mut fitted = start;
         for share in SHARES {
-            let problem = FitProblem { records: &records, free: free.clone(), share, control };
+            let problem = FitProblem { records: &records, free: free.clone(), share, control: self.control };
             fitted = problem.begin(&fitted, ROUNDS).ok()?;
         }
         Some(fitted)
     }
 
     /// The best factor near one that was tried, and its deviation by the curvature of the evidence.
-    fn refined(&self, base: &FittedRecords, supports: &[Part], best: Tried, control: &Control) -> (f64, f64) {
+    fn refined(&self, base: &FittedRecords, supports: &[Part], best: Tried) -> (f64, f64) {
         let [mut at, mut width] = [best.0, 0.4 * best.0.min(1.0 - best.0).max(0.1)];
         let unit = scale(&best.1);
         let worth = |fit: &FittedRecords| evidence(fit, unit);
         let (mut least, mut deviation) = (worth(&best.1), width);
         for _ in 0..HALVINGS {
             let sides = [at - width, at + width].map(|f| f.clamp(0.02, 0.99));
-            let of = |k: usize| self.with_supports(base, supports, sides[k], control);
+            let of = |k: usize| self.with_supports(base, supports, sides[k]);
             let found = self.control.map(2, of).into_iter().map(|fit| fit.as_ref().map_or(f64::INFINITY, worth));
             let found: Vec<f64> = found.collect();
             let bent = (found[0] + found[1] - 2.0 * least) / (width * width);

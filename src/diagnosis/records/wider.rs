@@ -65,7 +65,7 @@ impl Search<'_> {
                 starts.extend(self.begun_as(level, rival, &[law.effect])?);
             }
         }
-        starts.retain(|s| !self.given_up.holds(&s.effects));
+        starts.retain(|s| !self.given_up.holds(&s.effects, best));
         Ok(starts)
     }
 
@@ -75,8 +75,7 @@ impl Search<'_> {
         let Some((law, leg)) = fit.effects.last().and_then(|e| Some((e, e.place.legs().first().copied()?))) else {
             return Ok(Vec::new());
         };
-        let alone = self.control.alone();
-        let mut problem = self.problem(level, 1.0, &alone);
+        let mut problem = self.problem(level, 1.0);
         problem.free.effects = false;
         let test = match ScoreTest::new(&problem, fit).and_then(|test| test.without(law)) {
             Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
