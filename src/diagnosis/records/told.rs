@@ -46,28 +46,41 @@ impl Search<'_> {
         if self.control.is_late() {
             return Ok(fit.clone());
         }
-        let mut best: Option<(FittedRecords, usize)> = None;
         let all = Restrictions::new(self, fit)?;
-        let weights = all.information_of_shifts();
         let versions = self.by_sizes(fit);
-        let choices = versions.iter().flat_map(|(fit, sizes)| self.choices(fit, sizes));
-        let mut choices: Vec<(f64, Choice)> =
-            choices.map(|choice| (self.first_order_cost(&all, &choice.free), choice)).collect();
-        choices.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (cost, choice) in choices.into_iter().take(FITTED) {
-            // What costs more to first order than another does is not the plainest.
-            if best.as_ref().is_some_and(|told| is_plainest(&told.0, choice.fit) || cost_of(told, scale(fit)) < cost) {
-                break;
-            }
-            self.fitted_as(&choice, &weights, &mut best)?;
-        }
+        let mut best = self.plainest_choice(&all, versions.iter().flat_map(|(fit, sizes)| self.choices(fit, sizes)))?;
         // What agrees with the records only by sizes that are not sure each is told with all of them.
         let enough = self.records.agreement(AGREES);
         if misfit(fit) <= enough && best.as_ref().is_some_and(|(told, _)| misfit(told) > enough) {
             let sizes = vec![true; fit.known.len() + self.records.damped()];
-            self.choices(fit, &sizes).iter().try_for_each(|choice| self.fitted_as(choice, &weights, &mut best))?;
+            let with_all = self.plainest_choice(&all, self.choices(fit, &sizes).into_iter())?;
+            best = best.into_iter().chain(with_all).reduce(|a, b| if is_plainer(&b, &a) { b } else { a });
         }
         Ok(best.map_or_else(|| fit.clone(), |(fit, _)| fit))
+    }
+
+    /// The plainest fit, with its number of corrections, of those of some choices that cost least to first order.
+    fn plainest_choice<'f>(
+        &self,
+        all: &Restrictions,
+        choices: impl Iterator<Item = Choice<'f>>,
+    ) -> Result<Option<(FittedRecords, usize)>, RecordError> {
+        let mut best = None;
+        let weights = all.information_of_shifts();
+        let mut choices: Vec<(f64, Choice)> =
+            choices.map(|choice| (self.first_order_cost(all, &choice.free), choice)).collect();
+        choices.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (cost, choice) in choices.into_iter().take(FITTED) {
+            // What costs more to first order than another does is not the plainest.
+            let is_enough = |told: &(FittedRecords, usize)| {
+                is_plainest(&told.0, choice.fit) || cost_of(told, scale(choice.fit)) < cost
+            };
+            if best.as_ref().is_some_and(is_enough) {
+                break;
+            }
+            self.fitted_as(&choice, &weights, &mut best)?;
+        }
+        Ok(best)
     }
 
     /// `fit` with the sizes of known sources that moved; where the damping of modes is free beside those of laws of the whole structure,
