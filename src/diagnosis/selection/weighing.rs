@@ -324,8 +324,10 @@ const OF_THE_PART: f64 = 0.05;
 
 /// Whether every effect of a fit is of a size that the data know, and more than an error of a part of the model.
 fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
-    let within = |source: &Source| {
-        let source = &source.simpler(&Range::UNKNOWN).unwrap_or_else(|| source.clone());
+    let within = |(source, deviations): (&Source, &Vec<f64>)| {
+        let simpler = source.simpler(&Range::UNKNOWN);
+        let deviation = if simpler.is_some() { 0.0 } else { deviations[0] };
+        let source = &simpler.unwrap_or_else(|| source.clone());
         if takes_away(source) {
             return true;
         }
@@ -339,9 +341,9 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
             _ => false,
         });
         (updated || source.effect.adds_to(Constant::Mass))
-            && is_within_part(reference.predictor.structure(), source, part, OF_THE_PART)
+            && is_within_part(reference.predictor.structure(), (source, deviation), part, OF_THE_PART)
     };
-    !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().any(within)
+    !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().zip(&fit.deviations).any(within)
 }
 
 /// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.

@@ -22,9 +22,14 @@ pub(crate) fn takes_away(source: &Source) -> bool {
     source.effect.is_mass_or_spring() && source.parameters[0] < 0.0
 }
 
-/// Whether a spring or mass is less than `share` of `part`, which it would change.
-pub(crate) fn is_within_part(structure: &Structure, source: &Source, part: Part, share: f64) -> bool {
-    source.parameters[0].abs() < share * size_of(structure, part)
+/// Whether a spring or mass, less its deviation, is less than `share` of `part`, which it would change.
+pub(crate) fn is_within_part(
+    structure: &Structure,
+    (source, deviation): (&Source, f64),
+    part: Part,
+    share: f64,
+) -> bool {
+    source.parameters[0].abs() - deviation < share * size_of(structure, part)
 }
 
 /// Spring, N/m, or mass, kg, of a part of a structure; 0 where it has none.
@@ -92,14 +97,17 @@ mod tests {
     fn springs_and_masses_are_judged_by_those_that_are_there() {
         let (masses, ground_stiffness) = (vec![1.0, 2.0], vec![500.0, 0.0]);
         let chain = ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1000.0] }.build(&[]).unwrap();
-        let judged = |effect: Effect, dofs: &[usize], value: f64| {
+        let judged_within = |effect: Effect, dofs: &[usize], value: f64, deviation: f64| {
             let source = Source::known(effect, Place::Dofs(dofs.to_vec()), &[value]);
-            (takes_away(&source), is_within_part(&chain, &source, part_of(&source).unwrap(), 0.05))
+            (takes_away(&source), is_within_part(&chain, (&source, deviation), part_of(&source).unwrap(), 0.05))
         };
+        let judged = |effect: Effect, dofs: &[usize], value: f64| judged_within(effect, dofs, value, 0.0);
         assert_eq!(judged(Effect::Stiffness, &[0, 1], 40.0), (false, true));
         assert_eq!(judged(Effect::Stiffness, &[0, 1], 60.0), (false, false));
         assert_eq!(judged(Effect::Stiffness, &[0], -20.0), (true, true));
         assert_eq!(judged(Effect::Mass, &[1], 0.09), (false, true));
+        // As large, but not known to be.
+        assert_eq!(judged_within(Effect::Stiffness, &[0, 1], 60.0, 20.0), (false, true));
         assert_eq!(judged(Effect::Mass, &[1], -0.3), (true, false));
         assert!(part_of(&Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[1.0])).is_none());
     }
