@@ -55,7 +55,8 @@ impl Control {
         Self { workers: Some(workers), ..self }
     }
 
-    /// The same control without others to share work among: for pieces of work that are shared already.
+    /// The same control without others to share work among: for what several pieces of work wait for, whose threads would else be lent to
+    /// one another.
     #[must_use]
     pub fn alone(&self) -> Self {
         Self { workers: None, ..self.clone() }

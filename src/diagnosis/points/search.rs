@@ -27,7 +27,7 @@ const HOPELESS: f64 = 3.0;
 const LEAST: usize = 2;
 /// Evidence that an effect must bring.
 const EVIDENCE: f64 = 15.0;
-/// Bounds of the gain of a channel.
+/// Bounds of the gain of a channel: narrower than where shapes of motion tell it, since energies alone follow any factor.
 const GAINS: [f64; 2] = [0.5, 2.0];
 
 /// Squared residual and scales of one column or two with non-negative scales; none if a scale is not positive.

@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 /// their limits and bend to the same data, neighbouring places see the same motion, so that many of them say no more than two.
 const MOST_KIN: usize = 2;
 /// Evidence by which a fit is so far behind one that leaves no more than noise that it is not begun again on longer parts: a descent that
-/// ended after some steps has less to gain there.
+/// ended after some steps has less to gain there. Three times that within which fits are carried on; of an Iwan joint under hammers
+/// (looked-at seed 3504) the neighbours were 315 and more behind on parts, and thousands on the whole records.
 const FAR: f64 = 240.0;
 
 /// The first `count` of some fits, best first; of laws of one kin at a place, and of one law, the first [`MOST_KIN`] only, as long as there
