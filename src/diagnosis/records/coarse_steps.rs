@@ -24,7 +24,7 @@ impl FitProblem<'_> {
     /// [`RecordError`]: a model that cannot be predicted.
     pub(super) fn defect(&self, at: &FittedRecords) -> Result<Defect, RecordError> {
         let exact = at.sources(self.records).iter().all(|s| has_exact_steps(s.effect));
-        let of = |r: usize| -> Result<Option<Vec<Vec<f64>>>, RecordError> {
+        let defect_of_record = |r: usize| -> Result<Option<Vec<Vec<f64>>>, RecordError> {
             if exact || !self.records.list[r].has_coarse_steps() {
                 return Ok(None);
             }
@@ -37,7 +37,7 @@ impl FitProblem<'_> {
             }
             coarse.map(Some)
         };
-        let list = self.control.map(self.records.list.len(), of).into_iter().collect::<Result<_, _>>()?;
+        let list = self.control.map(self.records.list.len(), defect_of_record).into_iter().collect::<Result<_, _>>()?;
         Ok(Defect(list))
     }
 }

@@ -95,7 +95,7 @@ pub fn compare_records(
     control: &Control,
 ) -> Result<RecordComparison, RecordError> {
     let fitted = started(records, effects, control)?;
-    let one = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
+    let compare_record = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
         let model = fitted.predict(records, r, record.len(), &[])?.channels;
         let louder = |factor: f64, c: usize| {
             let mut start = fitted.clone();
@@ -104,8 +104,8 @@ pub fn compare_records(
         };
         Ok(compared(records, record, model, &|factor, c| (!control.is_late()).then(|| louder(factor, c)).flatten()))
     };
-    let list: Vec<OneRecord> = records.list.iter().enumerate().map(one).collect::<Result<_, _>>()?;
-    let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&list.iter().map(of).collect::<Vec<f64>>());
+    let list: Vec<OneRecord> = records.list.iter().enumerate().map(compare_record).collect::<Result<_, _>>()?;
+    let over = |value: &dyn Fn(&OneRecord) -> f64| root_mean_square(&list.iter().map(value).collect::<Vec<f64>>());
     Ok(RecordComparison { error: over(&|r| r.error), noise_floor: over(&|r| r.noise_floor), records: list })
 }
 
@@ -256,9 +256,9 @@ fn times(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
         let sizes: Vec<f64> = (0..record.channels.len())
             .map(|c| root_mean_square(&record.samples[c][range.clone()]) / whole(c).max(f64::MIN_POSITIVE))
             .collect();
-        let at = |n: usize| record.first_s + n as f64 * record.step;
+        let time_at_sample = |n: usize| record.first_s + n as f64 * record.step;
         RecordPart {
-            range: [at(range.start), at(range.end)],
+            range: [time_at_sample(range.start), time_at_sample(range.end)],
             size: root_mean_square(&sizes),
             error: root_mean_square(&errors),
         }
@@ -280,12 +280,12 @@ fn bands(record: &RecordData, model: &[Vec<f64>]) -> Vec<RecordPart> {
     let mut to = lines;
     for _ in 0..PARTS {
         let from = if parts.len() + 1 == PARTS { 1 } else { (to / 2).max(1) };
-        let of = |c: usize| {
+        let shares_in_band = |c: usize| {
             let left: Vec<f64> = record.samples[c].iter().zip(&model[c]).map(|(y, m)| y - m).collect();
             let whole = square(&record.samples[c], 1, lines).max(f64::MIN_POSITIVE);
             [square(&left, from, to) / whole, square(&record.samples[c], from, to) / whole]
         };
-        let all: Vec<[f64; 2]> = (0..record.channels.len()).map(of).collect();
+        let all: Vec<[f64; 2]> = (0..record.channels.len()).map(shares_in_band).collect();
         let mean = |k: usize| (all.iter().map(|x| x[k]).sum::<f64>() / all.len() as f64).sqrt();
         let hz = |k: usize| k as f64 / (n as f64 * record.step);
         parts.push(RecordPart { range: [hz(from), hz(to)], size: mean(1), error: mean(0) });

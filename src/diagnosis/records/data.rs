@@ -166,14 +166,14 @@ impl<'a> Records<'a> {
 
     /// Standard deviation of every sample of a record of which `left` (one list a channel) is not predicted.
     pub(crate) fn deviations(&self, record: &RecordData, left: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(c, (e, noise)): (usize, (&Vec<f64>, &f64))| {
+        let channel_deviations = |(c, (e, noise)): (usize, (&Vec<f64>, &f64))| {
             let mut own = deviations(e, *noise, record.step, self.corner_hz());
             let by_force = record.by_force.get(c).into_iter().flatten();
             // What is left above the modes that are followed may be the noise of the force: it counts once.
             own.iter_mut().zip(by_force).for_each(|(s, v)| *s = s.max((noise * noise + v).sqrt()));
             own
         };
-        left.iter().zip(&record.noise).enumerate().map(of).collect()
+        left.iter().zip(&record.noise).enumerate().map(channel_deviations).collect()
     }
 
     /// The same records, each sample weighted by what a model leaves above the modes that are followed (`residual` of whole
@@ -247,8 +247,7 @@ impl RecordData {
 
     /// Channels with the means of those that were measured.
     pub(super) fn as_measured(&self, channels: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(list, mean): (&Vec<f64>, &f64)| list.iter().map(|y| y + mean).collect();
-        channels.iter().zip(&self.means).map(of).collect()
+        channels.iter().zip(&self.means).map(|(list, mean)| list.iter().map(|y| y + mean).collect()).collect()
     }
 
     /// The run at a lower rate where its own is many times that of the motion of modes up to `last_hz`: nothing is to be seen in between,

@@ -50,8 +50,8 @@ pub(super) fn telling(points: Vec<AmplitudePoint>) -> Vec<AmplitudePoint> {
 
 /// Least and largest amplitude of a curve; none where it has no points.
 fn ends(points: &[AmplitudePoint]) -> Option<[f64; 2]> {
-    let of = |ends: [f64; 2], p: &AmplitudePoint| [ends[0].min(p.amplitude), ends[1].max(p.amplitude)];
-    let [least, most] = points.iter().fold([f64::INFINITY, 0.0], of);
+    let widened = |ends: [f64; 2], p: &AmplitudePoint| [ends[0].min(p.amplitude), ends[1].max(p.amplitude)];
+    let [least, most] = points.iter().fold([f64::INFINITY, 0.0], widened);
     (least > 0.0 && most > 0.0).then_some([least, most])
 }
 
@@ -87,16 +87,16 @@ mod tests {
     fn decays_of_the_model_lie_over_all_measured_amplitudes() {
         let own = [1.5, 1.35, 1.2];
         let louder = |factor: f64| Some(own.map(|a| a * factor).to_vec());
-        let of = |measured: &[f64], model: &[f64]| decays([&read(measured), &read(model)], &louder, &read);
-        let found = of(&[3.0, 0.3, 0.03], &own);
+        let compared_decays = |measured: &[f64], model: &[f64]| decays([&read(measured), &read(model)], &louder, &read);
+        let found = compared_decays(&[3.0, 0.3, 0.03], &own);
         assert!(found.len() <= MOST && (found[0][0] - 3.0).abs() < 1e-12, "{found:?}");
         assert!(found.last().is_some_and(|last| last[2] < 0.06), "{found:?}");
         assert!(found.windows(2).all(|pair| pair[1][0] < pair[0][0]));
         // None lies within what the record tells.
         assert!(found.iter().all(|decay| decay[0] > 1.05 * 1.5 || decay[0] <= 1.2), "{found:?}");
         // A record that covers all amplitudes is enough, and one without a curve says nothing.
-        assert!(of(&[3.0, 0.3], &[3.0, 0.3]).is_empty());
-        assert!(of(&[3.0, 0.3], &[]).is_empty());
+        assert!(compared_decays(&[3.0, 0.3], &[3.0, 0.3]).is_empty());
+        assert!(compared_decays(&[3.0, 0.3], &[]).is_empty());
         assert!(decays([&read(&[3.0, 0.03]), &read(&own)], &|_| None, &read).is_empty());
     }
 }

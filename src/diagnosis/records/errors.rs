@@ -11,10 +11,10 @@ pub(crate) fn channel_errors(record: &RecordData, model: &[Vec<f64>], samples: s
         let same = (0..record.channels.len()).filter(|&k| record.channels[k].quantity == record.channels[c].quantity);
         same.map(|k| size(&record.samples[k])).fold(0.0, f64::max)
     };
-    let of = |c: usize| {
+    let channel_error = |c: usize| {
         let left: Vec<f64> = samples.clone().map(|n| record.samples[c][n] - model[c][n]).collect();
         let scale = size(&record.samples[c]).max(largest(c) / 20.0);
         if scale > 0.0 { root_mean_square(&left) / scale } else { 0.0 }
     };
-    (0..record.channels.len()).map(of).collect()
+    (0..record.channels.len()).map(channel_error).collect()
 }

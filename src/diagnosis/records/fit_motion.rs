@@ -32,10 +32,10 @@ impl FitMotion {
 
     /// Relative motion along a leg in record `r`; none where it is no translation.
     pub(super) fn relative(&self, leg: Leg, r: usize) -> Option<MotionOfDof> {
-        let of = |dof: usize| self.rows[r].get(dof).and_then(Option::as_ref);
-        let mut relative = of(leg.first)?.clone();
+        let motion_of_dof = |dof: usize| self.rows[r].get(dof).and_then(Option::as_ref);
+        let mut relative = motion_of_dof(leg.first)?.clone();
         if let Some(second) = leg.second {
-            for (own, other) in relative.iter_mut().zip(of(second)?) {
+            for (own, other) in relative.iter_mut().zip(motion_of_dof(second)?) {
                 own.iter_mut().zip(other).for_each(|(a, b)| *a -= b);
             }
         }

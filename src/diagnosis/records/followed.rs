@@ -28,13 +28,13 @@ impl RecordData {
 
 /// Whether a channel moves in the band about mode `r`, up to the middle between it and its neighbours, well above its noise.
 fn shows(record: &RecordData, modes: &Modes, r: usize) -> bool {
-    let at = |k: usize| modes.omega[k] / TAU;
-    let own = at(r);
+    let frequency_hz = |k: usize| modes.omega[k] / TAU;
+    let own = frequency_hz(r);
     if own <= 0.0 || own * record.step > HELD {
         return false;
     }
-    let low = if r > 0 { (at(r - 1) * own).sqrt().max(own / 2.0) } else { own / 2.0 };
-    let high = if r + 1 < modes.len() { (own * at(r + 1)).sqrt().min(2.0 * own) } else { 2.0 * own };
+    let low = if r > 0 { (frequency_hz(r - 1) * own).sqrt().max(own / 2.0) } else { own / 2.0 };
+    let high = if r + 1 < modes.len() { (own * frequency_hz(r + 1)).sqrt().min(2.0 * own) } else { 2.0 * own };
     let share = 2.0 * record.step * (high.min(0.5 / record.step) - low);
     let half = ((NEIGHBOURS / (own * record.step)).ceil() as usize).max(4);
     let length = ((LOUD / (own * record.step)).ceil() as usize).max(256).min(record.len());

@@ -37,8 +37,7 @@ pub(super) fn of_force(force: &[f64], step: f64) -> f64 {
 impl Records<'_> {
     /// Adds to every record what the noise of its forces does to its channels.
     pub(super) fn with_force_noise(mut self) -> Self {
-        let of = |record: &RecordData| self.by_force(record);
-        let all: Vec<_> = self.list.iter().map(of).collect();
+        let all: Vec<_> = self.list.iter().map(|record| self.by_force(record)).collect();
         for (record, variances) in self.list.iter_mut().zip(all) {
             (record.by_force, record.scatter) = variances.unwrap_or_default();
         }
@@ -110,11 +109,11 @@ fn correlated(h: &[f64]) -> f64 {
 /// Deviation of the mean squared residual over its variance by the noise of the forces, which all channels of a record share.
 fn scatter(record: &RecordData, variances: &[Vec<f64>], lengths: &[f64]) -> f64 {
     let n = record.len() as f64;
-    let of = |((variances, noise), length): ((&Vec<f64>, &f64), &f64)| {
+    let channel_scatter = |((variances, noise), length): ((&Vec<f64>, &f64), &f64)| {
         let share = variances.iter().map(|v| v / (v + noise * noise)).sum::<f64>() / n;
         share * (2.0 * length / n).sqrt()
     };
-    let all: f64 = variances.iter().zip(&record.noise).zip(lengths).map(of).sum();
+    let all: f64 = variances.iter().zip(&record.noise).zip(lengths).map(channel_scatter).sum();
     all / variances.len().max(1) as f64
 }
 
@@ -141,14 +140,14 @@ mod tests {
         let blow =
             |n: usize| if (2000..2004).contains(&n) { 50.0 * (PI * (n as f64 - 1999.5) / 4.0).sin() } else { 0.0 };
         let sine = |n: usize| 10.0 * (TAU * 0.01 * n as f64).sin();
-        let of = |clean: &dyn Fn(usize) -> f64| {
+        let noise_beside = |clean: &dyn Fn(usize) -> f64| {
             let force: Vec<f64> = noise.iter().enumerate().map(|(n, e)| clean(n) + 0.1 * e).collect();
             of_force(&force, 1e-3)
         };
         // Half of uniform noise is nearer to 0 than 0.866 of its deviation, where it is 0.6745 of Gaussian noise.
-        assert!((of(&blow) / (0.1 * 0.866 / 0.6745) - 1.0).abs() < 0.1, "{}", of(&blow));
-        assert!((of(&sine) / 0.1 - 1.0).abs() < 0.1, "{}", of(&sine));
-        assert_eq!(of(&|_| 0.0), 0.0);
+        assert!((noise_beside(&blow) / (0.1 * 0.866 / 0.6745) - 1.0).abs() < 0.1, "{}", noise_beside(&blow));
+        assert!((noise_beside(&sine) / 0.1 - 1.0).abs() < 0.1, "{}", noise_beside(&sine));
+        assert_eq!(noise_beside(&|_| 0.0), 0.0);
     }
 
     /// `h = a^k` has the correlation `a^|k|`: the sum of its squares is `(1 + a^2) / (1 - a^2)`.

@@ -88,7 +88,7 @@ impl FreeForce {
 impl AtPlace<'_> {
     /// Force and its variance on every line, and the differences between the ends of the record.
     fn estimated(&self) -> Option<(Vec<c64>, Vec<f64>, Vec<f64>)> {
-        let total = |of: &dyn Fn(usize) -> f64| (0..self.lines.len()).map(of).sum::<f64>();
+        let total = |term: &dyn Fn(usize) -> f64| (0..self.lines.len()).map(term).sum::<f64>();
         let all = total(&|k| self.lines[k].measured.iter().map(c64::norm_sqr).sum()) / total(&|k| self.squares[k]);
         if !(all.is_finite() && all > 0.0) {
             return None;
@@ -206,11 +206,11 @@ fn averaged(list: &[f64], weights: &[f64]) -> Vec<f64> {
     };
     let [all, weight] = sum(0..list.len());
     let mean = all / weight.max(f64::MIN_POSITIVE);
-    let of = |k: usize| {
+    let local_mean = |k: usize| {
         let [own, weight] = sum(k.saturating_sub(half)..(k + half + 1).min(list.len()));
         ((own + ONE_LINE * mean) / (weight + ONE_LINE)).max(f64::MIN_POSITIVE)
     };
-    (0..list.len()).map(of).collect()
+    (0..list.len()).map(local_mean).collect()
 }
 
 /// The same force with nothing but its lines from `first` to `last`, of the samples of a record without its last.

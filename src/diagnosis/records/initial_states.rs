@@ -14,8 +14,8 @@ const IN_PHASE: [usize; 2] = [2, 4];
 
 /// The motion of the modes as the sensors show it, each with the number of its run; none of runs whose sensors tell no mode.
 pub(super) fn measured_motions(records: &Records, control: &Control) -> Vec<(usize, Motion)> {
-    let of = |r: &RecordData| Some((r.index, Motion::new(&records.modes, &r.run, control).ok()?));
-    records.list.iter().filter_map(of).collect()
+    let motion_of_record = |r: &RecordData| Some((r.index, Motion::new(&records.modes, &r.run, control).ok()?));
+    records.list.iter().filter_map(motion_of_record).collect()
 }
 
 /// The state in which a record, or a part of one, begins as the sensors show it; none where they do not.
@@ -48,14 +48,14 @@ impl Search<'_> {
         let shown = |k: usize| measured_state(motions, &records.list[k], kept).unwrap_or_else(|| own(k));
         let at_rest = |k: usize| if records.list[k].forces.is_empty() { own(k) } else { vec![0.0; 2 * kept] };
         let all = |state: &dyn Fn(usize) -> Vec<f64>| (0..records.list.len()).map(state).collect::<Vec<_>>();
-        let of = |initial: Vec<Vec<f64>>| {
+        let residual_squares = |initial: Vec<Vec<f64>>| {
             let candidate = FittedRecords { initial, ..start.clone() };
             let left = problem.left(&candidate).ok()?;
             let squares = left.residual.iter().map(|record| record.iter().flatten().map(|e| e * e).sum::<f64>());
             Some((squares.collect::<Vec<f64>>(), candidate.initial))
         };
         let candidates: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
-            [all(&own), all(&shown), all(&at_rest)].into_iter().filter_map(of).collect();
+            [all(&own), all(&shown), all(&at_rest)].into_iter().filter_map(residual_squares).collect();
         let best = |k: usize| candidates.iter().min_by(|a, b| a.0[k].total_cmp(&b.0[k])).map(|c| c.1[k].clone());
         let initial = (0..records.list.len()).map(|k| best(k).unwrap_or_else(|| own(k))).collect();
         FittedRecords { initial, ..start }

@@ -80,8 +80,8 @@ pub(super) struct Line {
 impl Line {
     /// What a unit of force along `pattern` does to the channels.
     pub(super) fn under(&self, pattern: &[f64]) -> Vec<c64> {
-        let of = |c: usize| pattern.iter().enumerate().map(|(r, b)| self.responses[(c, r)] * *b).sum();
-        (0..self.measured.len()).map(of).collect()
+        let channel_response = |c: usize| pattern.iter().enumerate().map(|(r, b)| self.responses[(c, r)] * *b).sum();
+        (0..self.measured.len()).map(channel_response).collect()
     }
 }
 
@@ -196,7 +196,7 @@ impl Expansion {
         let end = |j: usize| -> Vec<c64> {
             let (r, velocity) = (j % kept, j >= kept);
             let push = self.end_push(w, &known, r, velocity);
-            let of = |c: usize| {
+            let channel_response = |c: usize| {
                 let direct = match (order(c), velocity) {
                     (1, false) | (2, true) => c64::new(shape(c, r), 0.0),
                     (2, false) => iw * shape(c, r),
@@ -204,7 +204,7 @@ impl Expansion {
                 };
                 direct * weights[c] - (0..size).map(|i| responses[(c, i)] * push[i]).sum::<c64>()
             };
-            (0..y.len()).map(of).collect()
+            (0..y.len()).map(channel_response).collect()
         };
         Line { measured, ends: (0..2 * kept).map(end).collect(), responses }
     }

@@ -79,8 +79,8 @@ fn at_place(
     let (Place::Dofs(_), Some(leg)) = (place, place.legs().first().copied()) else { return Ok(None) };
     let (mut linear, drawn) = with_others(records, others, law, control)?;
     linear.list = drawn;
-    let of = |r: usize| FreeForce::new(&linear, &linear.list[r], leg).map(|force| (r, force));
-    let found: Vec<(usize, FreeForce)> = control.map(linear.list.len(), of).into_iter().flatten().collect();
+    let record_force = |r: usize| FreeForce::new(&linear, &linear.list[r], leg).map(|force| (r, force));
+    let found: Vec<(usize, FreeForce)> = control.map(linear.list.len(), record_force).into_iter().flatten().collect();
     control.check()?;
     let clear = |force: &FreeForce| root_mean_square(&force.force) > CLEAR * force.deviation;
     let mut parts: Vec<(f64, RunForce)> = found
@@ -154,9 +154,9 @@ fn parts(record: &RecordData, free: &FreeForce, law: Option<&Source>) -> Vec<(f6
     let part = |k: usize| {
         let start = starts[k];
         let points = |force: &[f64], every: usize| -> Vec<ForcePoint> {
-            let at =
+            let point_at_sample =
                 |n: usize| ForcePoint { displacement: free.motion[0][n], velocity: free.motion[1][n], force: force[n] };
-            (start..start + length).step_by(every).map(at).collect()
+            (start..start + length).step_by(every).map(point_at_sample).collect()
         };
         let second = |n: usize| record.first_s + n as f64 * record.step;
         let run = RunForce {

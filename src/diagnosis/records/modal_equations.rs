@@ -154,10 +154,10 @@ impl ModalEquations {
         let window: f64 = 0.5 * dot(&self.taper, &self.taper);
         let stiff = |r: usize| (band.omega[r].powi(2) - omega * omega).hypot(FLANK * 2.0 * band.omega[r] * resolution);
         let noise = |r: usize, s: usize| -> f64 {
-            let of = |(c, (order, variance)): (usize, &(i32, f64))| {
+            let sensor_noise = |(c, (order, variance)): (usize, &(i32, f64))| {
                 band.expansion[(r, c)] * band.expansion[(s, c)] * variance * omega.powi(-2 * order)
             };
-            motion.sensors.iter().enumerate().map(of).sum::<f64>() * window
+            motion.sensors.iter().enumerate().map(sensor_noise).sum::<f64>() * window
         };
         let covariance = Mat::from_fn(count, count, |r, s| {
             let model = if r == s { (MODEL_SHARE * elastic[r]).powi(2) * (1.0 + 1e-9) } else { 0.0 };
@@ -217,8 +217,8 @@ mod tests {
         let modes = structure.modes().unwrap();
         let wave = |n: usize, dof: usize| -> f64 {
             let t = 5e-3 * n as f64;
-            let of = |r: usize| modes.shapes[(dof, r)] * (-0.4 * t).exp() * (modes.omega[r] * t).cos();
-            1e-2 * (0..2).map(of).sum::<f64>()
+            let mode_motion = |r: usize| modes.shapes[(dof, r)] * (-0.4 * t).exp() * (modes.omega[r] * t).cos();
+            1e-2 * (0..2).map(mode_motion).sum::<f64>()
         };
         let channel = |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: (dof + 1).to_string() };
         let samples = (0..2).map(|dof| (0..1600).map(|n| wave(n, dof)).collect()).collect();

@@ -19,7 +19,7 @@ impl Records<'_> {
     /// Damping that laws of the whole structure give the modes whose damping is corrected, 1/s, their sizes multiplied by factors of
     /// these logarithms.
     pub(super) fn modal_damping(&self, logarithms: &[f64]) -> Vec<f64> {
-        let of = |omega: f64| {
+        let damping_at = |omega: f64| {
             let laws = self.known.iter().zip(logarithms).filter(|(source, _)| source.place == Place::Whole(None));
             let damping = laws.map(|(source, v)| match source.effect.kind() {
                 Kind::Whole(law) => {
@@ -29,6 +29,6 @@ impl Records<'_> {
             });
             damping.sum::<f64>()
         };
-        self.modes.omega[..self.damped()].iter().map(|&omega| of(omega.max(f64::MIN_POSITIVE))).collect()
+        self.modes.omega[..self.damped()].iter().map(|&omega| damping_at(omega.max(f64::MIN_POSITIVE))).collect()
     }
 }

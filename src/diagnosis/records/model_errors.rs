@@ -2,6 +2,7 @@
 //! states a little wrongly. Where it corrects a part of the structure it is told as that, else not at all.
 
 use super::fitted::FittedRecords;
+use super::search::factors_of;
 use super::telling::added;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -50,11 +51,7 @@ impl ModelErrors {
 
     /// Factors on the parts of the structure.
     pub(super) fn factors(&self) -> Vec<(Part, f64)> {
-        let of = |c: &Correction| match c.parameter {
-            UpdatingParameter::Structure(part) => Some((part, c.factor)),
-            _ => None,
-        };
-        self.corrections.iter().filter_map(of).collect()
+        factors_of(&self.corrections)
     }
 }
 

@@ -40,8 +40,8 @@ impl Search<'_> {
         let other = |f: &&FittedRecords| !f.effects.iter().all(|e| best.effects.iter().any(|b| b.is_same(e)));
         let Some(rival) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };
         let trials = trials(self.plain);
-        let of = |k: usize| separation(self.plain, &trials[k], [best, rival]).unwrap_or(0.0).min(PLAIN);
-        let gains = self.control.map(trials.len(), of);
+        let gain_of_trial = |k: usize| separation(self.plain, &trials[k], [best, rival]).unwrap_or(0.0).min(PLAIN);
+        let gains = self.control.map(trials.len(), gain_of_trial);
         self.control.check()?;
         let Some(most) = (0..trials.len()).rev().max_by(|&a, &b| gains[a].total_cmp(&gains[b])) else {
             return Ok(Vec::new());
@@ -94,13 +94,13 @@ fn trials(records: &Records) -> Vec<Trial> {
 
 /// The first samples of a record with its forces `times` as large.
 fn resized(record: &RecordData, samples: usize, times: f64) -> RecordData {
-    let of = |lists: &[Vec<f64>], times: f64| -> Vec<Vec<f64>> {
+    let first_samples = |lists: &[Vec<f64>], times: f64| -> Vec<Vec<f64>> {
         lists.iter().map(|list| list[..samples].iter().map(|y| times * y).collect()).collect()
     };
     RecordData {
-        samples: of(&record.samples, 1.0),
-        sigma: of(&record.sigma, 1.0),
-        forces: of(&record.forces, times),
+        samples: first_samples(&record.samples, 1.0),
+        sigma: first_samples(&record.sigma, 1.0),
+        forces: first_samples(&record.forces, times),
         ..record.clone()
     }
 }
@@ -110,14 +110,14 @@ fn resized(record: &RecordData, samples: usize, times: f64) -> RecordData {
 fn largest_displacement(records: &Records, record: &RecordData) -> Option<(usize, f64)> {
     let omega = TAU * record.dominant_hz;
     let translations = records.structure.translations();
-    let of = |c: usize| {
+    let channel_displacement = |c: usize| {
         let channel = &record.channels[c];
         let order = channel.quantity.derivatives()?;
         let about = in_band(&record.samples[c], record.step, NEAR.map(|share| share * record.dominant_hz));
         let moved = about.iter().fold(0.0_f64, |m, y| m.max(y.abs())) / omega.powi(order);
         (translations.contains(&channel.dof) && moved > 0.0).then_some((channel.dof, moved))
     };
-    (0..record.channels.len()).filter_map(of).max_by(|a, b| a.1.total_cmp(&b.1))
+    (0..record.channels.len()).filter_map(channel_displacement).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// State that a static force at a DOF holds, with that displacement there, and the force (N).
@@ -143,12 +143,12 @@ fn separation(records: &Records, trial: &Trial, models: [&FittedRecords; 2]) -> 
         own.predict(&one, 0, trial.record.len(), &[]).ok().map(|r| r.channels)
     });
     let [Some(a), Some(b)] = predicted else { return None };
-    let of = |c: usize| {
+    let channel_separation = |c: usize| {
         let apart: f64 = a[c].iter().zip(&b[c]).map(|(a, b)| (a - b).powi(2)).sum();
         apart / trial.record.noise[c].powi(2)
     };
     let alike = models[0].alike.max(1.0);
-    Some(((0..a.len()).map(of).sum::<f64>() / alike).sqrt()).filter(|x| x.is_finite())
+    Some(((0..a.len()).map(channel_separation).sum::<f64>() / alike).sqrt()).filter(|x| x.is_finite())
 }
 
 #[cfg(test)]

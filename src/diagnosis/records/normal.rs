@@ -93,10 +93,10 @@ impl FitProblem<'_> {
     fn left_by(
         &self,
         at: &FittedRecords,
-        one: &(dyn Fn(usize) -> Result<Vec<Vec<f64>>, RecordError> + Sync),
+        left_of_record: &(dyn Fn(usize) -> Result<Vec<Vec<f64>>, RecordError> + Sync),
     ) -> Result<Left, RecordError> {
         let mut left = Left::default();
-        for list in self.control.map(self.records.list.len(), one) {
+        for list in self.control.map(self.records.list.len(), left_of_record) {
             let list = list?;
             left.chi_square += list.iter().flatten().map(|e| e * e).sum::<f64>();
             left.count += list.iter().map(Vec::len).sum::<usize>();
@@ -121,11 +121,11 @@ impl FitProblem<'_> {
     /// What a prediction of a record leaves, over the noise.
     fn over_noise(&self, r: usize, predicted: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, RecordError> {
         let record = &self.records.list[r];
-        let of = |(c, model): (usize, &Vec<f64>)| {
+        let channel_residual = |(c, model): (usize, &Vec<f64>)| {
             let measured = record.samples[c].iter().zip(&record.sigma[c]);
             model.iter().zip(measured).map(|(m, (y, s))| (y - m) / s).collect::<Vec<f64>>()
         };
-        let left: Vec<Vec<f64>> = predicted.iter().enumerate().map(of).collect();
+        let left: Vec<Vec<f64>> = predicted.iter().enumerate().map(channel_residual).collect();
         if left.iter().flatten().any(|e| !e.is_finite()) {
             let (file, reason) = (record.file.clone(), TransientError::StepFailed);
             return Err(RecordError::Model { file, reason });
@@ -164,8 +164,8 @@ impl FitProblem<'_> {
             columns.push((count + self.shapes() + c, self.offset_column(r, c, e.len())));
             channels.push(columns);
         }
-        let of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
-        let mut unknowns: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (of(p), *k, *s)).collect();
+        let number_of = |p: &TransientParameter| parameters.iter().position(|q| q == p).unwrap_or(0);
+        let mut unknowns: Vec<(usize, usize, f64)> = unknowns.iter().map(|(p, k, s)| (number_of(p), *k, *s)).collect();
         let first = self.shared(at) - self.shapes();
         unknowns.extend((0..self.shapes()).map(|k| (count + k, first + k, 1.0)));
         let (own, first) = (count + self.shapes(), self.offset_variable(at, r));

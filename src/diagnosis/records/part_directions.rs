@@ -82,19 +82,19 @@ impl PartDirections {
 
     /// Logarithms of the factors on the parts, of the deviations `z` along the directions.
     pub(super) fn logarithms(&self, z: &[f64]) -> Vec<(Part, f64)> {
-        let of = |(p, part): (usize, &Part)| (*part, self.weights.iter().zip(z).map(|(w, z)| w[p] * z).sum());
-        self.parts.iter().enumerate().map(of).collect()
+        let logarithm = |(p, part): (usize, &Part)| (*part, self.weights.iter().zip(z).map(|(w, z)| w[p] * z).sum());
+        self.parts.iter().enumerate().map(logarithm).collect()
     }
 
     /// Deviations of these logarithms, of those of the directions; a part that no direction moves stays as uncertain as it was.
     pub(super) fn deviations(&self, own: &[f64]) -> Vec<f64> {
-        let of = |p: usize| {
+        let deviation_of_part = |p: usize| {
             let pairs = || self.weights.iter().map(|w| w[p]).zip(own);
             let known: f64 = pairs().map(|(w, _)| w * w).sum();
             let told: f64 = pairs().map(|(w, d)| (w * d).powi(2)).sum();
             ((PART.powi(2) - known).max(0.0) + told).sqrt()
         };
-        (0..self.parts.len()).map(of).collect()
+        (0..self.parts.len()).map(deviation_of_part).collect()
     }
 
     /// Logarithms of the factors on the stiffness of `kept` modes that stand for the deviations `z`, to first order.
@@ -110,7 +110,7 @@ impl PartDirections {
         }
         let count = self.len() + 1;
         let slope = |r: usize, k: usize| if k == 0 { ALL } else { self.by_mode[k - 1][r] };
-        let sum = |of: &dyn Fn(usize) -> f64| (0..modes.len()).map(of).sum::<f64>() / (MODE * MODE);
+        let sum = |term: &dyn Fn(usize) -> f64| (0..modes.len()).map(term).sum::<f64>() / (MODE * MODE);
         let products =
             Mat::from_fn(count, count, |i, j| sum(&|r| slope(r, i) * slope(r, j)) + f64::from(u8::from(i == j)));
         let against = Mat::from_fn(count, 1, |i, _| sum(&|r| slope(r, i) * modes[r]));

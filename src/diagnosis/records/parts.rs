@@ -85,12 +85,12 @@ fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
 
 /// Number of the sample about which the motion is largest, in the channel that shows most of it.
 fn loudest(record: &RecordData, length: usize) -> usize {
-    let of = |c: usize| {
+    let peak_of_channel = |c: usize| {
         let sizes = local(&record.samples[c], (length / 4).max(1));
         let at = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).unwrap_or(0);
         (sizes[at] / record.noise[c], at)
     };
-    (0..record.channels.len()).map(of).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, at)| at)
+    (0..record.channels.len()).map(peak_of_channel).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, at)| at)
 }
 
 /// Samples up to the end of the motion that stands out.
@@ -110,7 +110,7 @@ impl RecordData {
     /// Samples `from..to`, of a decay no more than its motion needs; steps of the model cover no more than `phase` rad of it.
     fn part(&self, from: usize, to: usize, phase: f64) -> Self {
         let every = if self.forces.is_empty() { self.spare() } else { 1 };
-        let of = |lists: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let shortened = |lists: &[Vec<f64>]| -> Vec<Vec<f64>> {
             lists.iter().map(|list| list[from..to].iter().copied().step_by(every).collect()).collect()
         };
         Self {
@@ -121,13 +121,13 @@ impl RecordData {
             first_s: self.first_s + from as f64 * self.step,
             step: self.step * every as f64,
             channels: self.channels.clone(),
-            samples: of(&self.samples),
+            samples: shortened(&self.samples),
             means: self.means.clone(),
             largest: self.largest.clone(),
             drives: self.drives.clone(),
-            forces: of(&self.forces),
+            forces: shortened(&self.forces),
             noise: self.noise.clone(),
-            sigma: of(&self.sigma),
+            sigma: shortened(&self.sigma),
             by_force: Vec::new(),
             scatter: self.scatter,
             substeps: self.steps_between(self.step * every as f64, phase),

@@ -42,7 +42,7 @@ fn among_fitted(best: &FittedRecords, cut_off: bool) -> f64 {
 /// Squared residuals of the stretches of all records.
 fn squares(fit: &FittedRecords) -> Vec<f64> {
     let each = STRETCHES.div_ceil(fit.residual.len().max(1));
-    let of = |channels: &Vec<Vec<f64>>| {
+    let squares_of_record = |channels: &Vec<Vec<f64>>| {
         let mut squares = vec![0.0; each];
         for channel in channels {
             let length = channel.len().max(1);
@@ -50,7 +50,7 @@ fn squares(fit: &FittedRecords) -> Vec<f64> {
         }
         squares
     };
-    fit.residual.iter().flat_map(of).collect()
+    fit.residual.iter().flat_map(squares_of_record).collect()
 }
 
 #[cfg(test)]

@@ -331,10 +331,10 @@ mod tests {
         let start = search.carried(&start, whole, 0).unwrap();
         let parts = &search.levels[0];
         let fit = search.problem(0, 1.0).improve(&start, 20).unwrap();
-        let of = |index: usize| -> Vec<f64> {
+        let shifts_of_record = |index: usize| -> Vec<f64> {
             parts.list.iter().zip(&fit.shifts).filter(|(r, _)| r.index == index).map(|(_, shift)| *shift).collect()
         };
-        let (first, second) = (of(0), of(1));
+        let (first, second) = (shifts_of_record(0), shifts_of_record(1));
         assert!(first.len() > 1 && second.len() > 1, "{first:?} {second:?}");
         assert!(first.iter().all(|s| *s == first[0]) && second.iter().all(|s| *s == second[0]), "{first:?} {second:?}");
         assert!((second[0] - first[0] - 0.003).abs() < 6e-4, "{first:?} {second:?}");

@@ -60,8 +60,8 @@ pub(crate) struct Regression<'a> {
 impl<'a> Regression<'a> {
     /// Of the records beside what `fit` holds; `None` where no record's sensors tell a mode apart.
     pub(super) fn new(records: &'a Records<'a>, fit: &FittedRecords, control: &Control) -> Option<Self> {
-        let of = |r: &RecordData| ModalEquations::new(Motion::new(&records.modes, &r.run, control).ok()?);
-        let made: Vec<ModalEquations> = records.list.iter().filter_map(of).collect();
+        let record_equations = |r: &RecordData| ModalEquations::new(Motion::new(&records.modes, &r.run, control).ok()?);
+        let made: Vec<ModalEquations> = records.list.iter().filter_map(record_equations).collect();
         if made.is_empty() {
             return None;
         }
@@ -164,9 +164,9 @@ impl<'a> Regression<'a> {
             }
         }
         let count = self.columns.len();
-        let of = |i: usize| &self.columns[i].0;
-        let matrix = Mat::from_fn(count, count, |i, j| dot(of(i), of(j)));
-        let rhs = Mat::from_fn(count, 1, |i, _| dot(of(i), &left));
+        let column = |i: usize| &self.columns[i].0;
+        let matrix = Mat::from_fn(count, count, |i, j| dot(column(i), column(j)));
+        let rhs = Mat::from_fn(count, 1, |i, _| dot(column(i), &left));
         let solved = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
         let value = |i: usize| (solved[(i, 0)] * self.columns[i].1).clamp(-MOST_CHANGE, MOST_CHANGE);
         let of_modes = |count: usize, first: usize| {
@@ -218,17 +218,17 @@ impl<'a> Regression<'a> {
     /// explains most.
     pub(super) fn ranked(&self, places: &[Place], effects: &[Effect], control: &Control) -> Vec<Regressed> {
         let (plain, shaped): (Vec<Effect>, Vec<Effect>) = effects.iter().partition(|e| e.parameters().len() == 1);
-        let at = |places: &[Place], effects: &[Effect]| -> Vec<Regressed> {
-            let of = |k: usize| {
+        let regressed = |places: &[Place], effects: &[Effect]| -> Vec<Regressed> {
+            let best_at_place = |k: usize| {
                 let mut works: Vec<Works<'_>> =
                     self.parts.iter().map(|p| Works::new(self.records.structure, &p.motion)).collect();
                 effects.iter().filter_map(|e| self.best(*e, &places[k], &mut works)).collect::<Vec<Regressed>>()
             };
-            control.map(places.len(), of).into_iter().flatten().collect()
+            control.map(places.len(), best_at_place).into_iter().flatten().collect()
         };
-        let mut all = at(places, &plain);
+        let mut all = regressed(places, &plain);
         all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-        all.extend(at(&foremost(all.iter().map(|r| &r.source.place)), &shaped));
+        all.extend(regressed(&foremost(all.iter().map(|r| &r.source.place)), &shaped));
         all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
         all
     }

@@ -89,7 +89,7 @@ impl<'a> Restrictions<'a> {
     pub(super) fn information_of_shifts(&self) -> Vec<f64> {
         let problem = problem(self.search, vec![false; self.corrections().len()]);
         let (matrix, local) = (&self.normal.matrix, problem.local());
-        let of = |r: usize| {
+        let information_of_shift = |r: usize| {
             let first = problem.shared(self.fit) + r * local;
             let shift = problem.shift_variable(self.fit, r);
             let others: Vec<usize> = (first..first + local).filter(|k| *k != shift).collect();
@@ -103,7 +103,7 @@ impl<'a> Restrictions<'a> {
             let taken = |solved: &Mat<f64>| (0..others.len()).map(|i| beside[(i, 0)] * solved[(i, 0)]).sum::<f64>();
             (matrix[(shift, shift)] - solved.as_ref().map_or(0.0, taken)).max(0.0)
         };
-        (0..self.search.records.list.len()).map(of).collect()
+        (0..self.search.records.list.len()).map(information_of_shift).collect()
     }
 
     /// Values of all corrections, in the order of their variables.
@@ -158,12 +158,12 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
         };
-        let mut of = |r: usize| {
+        let mut decay_of_record = |r: usize| {
             let mut rows = truth.predict(records, r, records.list[r].len(), &[]).unwrap().channels;
             rows.iter_mut().flatten().for_each(|y| *y += noise());
             decay(4e-3, rows)
         };
-        (0..records.list.len()).map(&mut of).collect()
+        (0..records.list.len()).map(&mut decay_of_record).collect()
     }
 
     /// What a choice of corrections costs to first order is what a fit with them costs, whether it holds what is off or not.

@@ -134,10 +134,10 @@ mod tests {
     /// Twice the noise is far behind on 1000 samples, as long as the best leaves no more than noise; on 100 it is not.
     #[test]
     fn what_is_far_behind_an_explanation_is_given_up_while_it_explains() {
-        let of = |effect, misfit: f64, count: usize| FittedRecords { count, ..fit(effect, misfit * count as f64) };
-        let (gap, lost) = (of(Effect::Gap, 2.0, 1000), of(Effect::Dahl, 1.5, 1000));
+        let fitted = |effect, misfit: f64, count: usize| FittedRecords { count, ..fit(effect, misfit * count as f64) };
+        let (gap, lost) = (fitted(Effect::Gap, 2.0, 1000), fitted(Effect::Dahl, 1.5, 1000));
         for (count, behind) in [(1000, true), (100, false)] {
-            let (best, other) = (of(Effect::Dahl, 1.0, count), of(Effect::Gap, 2.0, count));
+            let (best, other) = (fitted(Effect::Dahl, 1.0, count), fitted(Effect::Gap, 2.0, count));
             let given_up = GivenUp::default();
             given_up.add_all(&[best.clone(), other], 12.0, 0.5);
             assert_eq!(given_up.holds(&gap.effects, &best), behind, "{count} samples");

@@ -252,14 +252,14 @@ impl Search<'_> {
         let problem = FitProblem { records, free: Free::all(records), share: 1.0, control: self.control };
         let Ok(test) = ScoreTest::new(&problem, fit) else { return (Vec::new(), f64::INFINITY) };
         let open = |s: &Scored| !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(&s.source));
-        let at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {
+        let scores_at = |places: &[Place], laws: &[Effect]| -> Vec<Scored> {
             self.control.map(places.len(), |k| test.at(&places[k], laws)).into_iter().flatten().filter(open).collect()
         };
         // Laws of several shapes are weighed at the places only where one of a single shape promises most.
         let (plain, shaped): (Vec<Effect>, Vec<Effect>) = laws.iter().partition(|e| e.parameters().len() == 1);
-        let mut all = at(places, &plain);
+        let mut all = scores_at(places, &plain);
         all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        all.extend(at(&foremost(all.iter().map(|s| &s.source.place)), &shaped));
+        all.extend(scores_at(&foremost(all.iter().map(|s| &s.source.place)), &shaped));
         let unit = scale(fit);
         let worth = |s: &Scored| {
             let effects = fit.effects.iter().chain([&s.source]).cloned().collect();

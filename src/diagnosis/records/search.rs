@@ -72,11 +72,11 @@ pub(super) struct Search<'a> {
 
 /// Parts of the structure with their factors.
 pub(super) fn factors_of(corrections: &[Correction]) -> Vec<(Part, f64)> {
-    let of = |c: &Correction| match c.parameter {
+    let structure_factor = |c: &Correction| match c.parameter {
         UpdatingParameter::Structure(part) => Some((part, c.factor)),
         _ => None,
     };
-    corrections.iter().filter_map(of).collect()
+    corrections.iter().filter_map(structure_factor).collect()
 }
 
 /// Sets of growing size: the best of each as it stood when the next effect was found, of the last all that were followed, fitted

@@ -45,10 +45,10 @@ impl Records<'_> {
 
     /// What the channels of a record show more of each kept mode than the model, kg^(-1/2), with `errors` of the sensors.
     pub(super) fn shape_errors(&self, record: &RecordData, errors: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |c: usize| -> Vec<f64> {
+        let errors_of_channel = |c: usize| -> Vec<f64> {
             let own = errors.get(self.sensor(record, c)).into_iter().flatten();
             own.enumerate().map(|(r, e)| e * self.shape_size(r)).collect()
         };
-        (0..record.channels.len()).map(of).collect()
+        (0..record.channels.len()).map(errors_of_channel).collect()
     }
 }

@@ -72,8 +72,8 @@ fn changes(records: &Records, corrected: &FittedRecords) -> Vec<(f64, Source)> {
     let mut places = Family::EachTranslation.places(structure);
     places.extend(Family::EachPair.places(structure));
     let laws = || Effect::ALL.into_iter().filter(|effect| effect.is_mass_or_spring());
-    let of = |place: &Place| laws().filter_map(|law| change(records, corrected, law, place)).collect::<Vec<_>>();
-    let mut all: Vec<(f64, f64, Source)> = places.iter().flat_map(of).collect();
+    let changes_at = |place| laws().filter_map(|law| change(records, corrected, law, place)).collect::<Vec<_>>();
+    let mut all: Vec<(f64, f64, Source)> = places.iter().flat_map(changes_at).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all.into_iter().map(|(_, stiffness, source)| (stiffness, source)).collect()
 }

@@ -26,8 +26,8 @@ pub fn fourier_integral(signal: &[f64], step: f64) -> Vec<c64> {
     let mut lines = RealTransform::new(count).forward(&mut closed);
     let jump = |order: usize| -> f64 {
         let mirrored = if order == 2 { 1.0 } else { -1.0 };
-        let of = |j: usize| DIFFERENCES[order - 1][j] * (mirrored * signal[count - j] - signal[j]);
-        (0..6.min(signal.len())).map(of).sum::<f64>() / step.powi(order as i32)
+        let end_difference = |j: usize| DIFFERENCES[order - 1][j] * (mirrored * signal[count - j] - signal[j]);
+        (0..6.min(signal.len())).map(end_difference).sum::<f64>() / step.powi(order as i32)
     };
     let ends = [signal[count] - signal[0], jump(1), jump(2), jump(3)];
     for (k, line) in lines.iter_mut().enumerate() {

@@ -34,7 +34,7 @@ impl Search<'_> {
     pub(super) fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
         let sources = self.beginnings(level, best, base, regression.as_ref());
-        let of = |k: usize| {
+        let start_with_law = |k: usize| {
             if let Some(regression) = &regression {
                 return self.in_best_states(level, regression.tuned(base, Some(&sources[k])));
             }
@@ -42,7 +42,7 @@ impl Search<'_> {
             start.effects.push(sources[k].clone());
             start
         };
-        self.control.map(sources.len(), of)
+        self.control.map(sources.len(), start_with_law)
     }
 
     /// Laws at places from which fits begin: those that the equation of motion demands, else a grid of all.
@@ -59,11 +59,11 @@ impl Search<'_> {
         let all = self.all_places();
         let located = self.places(best);
         let Some(regression) = regression else {
-            let of = |place: &Place| {
+            let starts_at_place = |place: &Place| {
                 let range = self.range(level, base, place);
                 LAWS.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
             };
-            return located.iter().flat_map(of).filter(open).collect();
+            return located.iter().flat_map(starts_at_place).filter(open).collect();
         };
         let mut ranked = regression.ranked(&all, &LAWS, self.control);
         ranked.retain(|r| open(&r.source));
@@ -92,7 +92,7 @@ impl Search<'_> {
         let quotas = places.iter().copied().zip(QUOTAS);
         let more =
             located.iter().filter(|p| !places.iter().any(|q| q.is_same(p))).map(|p| (p, QUOTAS[QUOTAS.len() - 1]));
-        let of = |(place, quota): (&Place, usize)| {
+        let best_at_place = |(place, quota): (&Place, usize)| {
             ranked
                 .iter()
                 .filter(|r| r.source.place.is_same(place))
@@ -100,7 +100,7 @@ impl Search<'_> {
                 .map(|r| r.source.clone())
                 .collect::<Vec<_>>()
         };
-        let mut sources: Vec<Source> = quotas.chain(more).flat_map(of).collect();
+        let mut sources: Vec<Source> = quotas.chain(more).flat_map(best_at_place).collect();
         let further =
             next.into_iter().chain(constants).filter(|n| !sources.iter().any(|s| s.is_same(n))).collect::<Vec<_>>();
         sources.extend(further);
@@ -175,9 +175,9 @@ impl Search<'_> {
         let legs = place.legs();
         let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
         let sizes = |initial: &Vec<f64>| -> [f64; 2] {
-            let of = |r: usize| shape(r).abs() * initial[r].hypot(initial[kept + r]);
-            let d: f64 = (0..kept).map(of).sum();
-            [d, (0..kept).map(|r| of(r) * modes.omega[r].max(1e-3)).sum()]
+            let amplitude_of_mode = |r: usize| shape(r).abs() * initial[r].hypot(initial[kept + r]);
+            let d: f64 = (0..kept).map(amplitude_of_mode).sum();
+            [d, (0..kept).map(|r| amplitude_of_mode(r) * modes.omega[r].max(1e-3)).sum()]
         };
         let mut all: Vec<[f64; 2]> = base.initial.iter().map(sizes).collect();
         for (record, size) in self.levels[level].list.iter().zip(&mut all) {

@@ -44,11 +44,11 @@ impl Search<'_> {
             groups.push(supports);
         }
         let tries: Vec<(usize, f64)> = (0..groups.len()).flat_map(|g| FACTORS.map(|f| (g, f))).collect();
-        let one = |k: usize| {
+        let try_factor = |k: usize| {
             let (g, factor) = tries[k];
             Some((g, (factor, self.with_supports(&base, &groups[g], factor)?)))
         };
-        let found: Vec<(usize, Tried)> = self.control.map(tries.len(), one).into_iter().flatten().collect();
+        let found: Vec<(usize, Tried)> = self.control.map(tries.len(), try_factor).into_iter().flatten().collect();
         self.control.check()?;
         // What is left decides what corrections cost: those of the fit that leaves least.
         let least = found.iter().min_by(|a, b| a.1.1.chi_square.total_cmp(&b.1.1.chi_square));
@@ -88,8 +88,8 @@ impl Search<'_> {
         let (mut least, mut deviation) = (worth(&best.1), width);
         for _ in 0..HALVINGS {
             let sides = [at - width, at + width].map(|f| f.clamp(0.02, 0.99));
-            let of = |k: usize| self.with_supports(base, supports, sides[k]);
-            let found = self.control.map(2, of).into_iter().map(|fit| fit.as_ref().map_or(f64::INFINITY, worth));
+            let side_fit = |k: usize| self.with_supports(base, supports, sides[k]);
+            let found = self.control.map(2, side_fit).into_iter().map(|fit| fit.as_ref().map_or(f64::INFINITY, worth));
             let found: Vec<f64> = found.collect();
             let bent = (found[0] + found[1] - 2.0 * least) / (width * width);
             if bent.is_finite() && bent > 0.0 {

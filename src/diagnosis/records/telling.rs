@@ -33,7 +33,7 @@ pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
     let shapes: Vec<f64> = fit.shapes.iter().flatten().copied().collect();
     let known = root_mean_square(&shapes).max(KNOWN);
     let mut at = 0;
-    let of = |source: &Source| {
+    let with_deviations = |source: &Source| {
         let mut deviations: Vec<f64> =
             fit.deviations[at..at + source.parameters.len()].iter().map(|d| d * wide).collect();
         let exponent = source.effect.parameters().iter().position(|p| p.name == "exponent");
@@ -45,7 +45,7 @@ pub(super) fn added(fit: &FittedRecords) -> Vec<Added> {
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };
-    fit.effects.iter().map(of).collect()
+    fit.effects.iter().map(with_deviations).collect()
 }
 
 /// Suggestions of the fits of one size, best first, of a search that was `cut_off` or not.
@@ -112,11 +112,11 @@ pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correct
         .chain((0..fit.damping.len()).map(|r| UpdatingParameter::Structure(Part::ModeDamping(r))))
         .chain((0..modes).map(|r| UpdatingParameter::Structure(Part::Mode(r))))
         .chain([UpdatingParameter::Structure(Part::Mass)]);
-    let of = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
+    let correction = |(k, (v, parameter)): (usize, (f64, UpdatingParameter))| {
         let deviation = fit.deviations.get(first + k).copied().unwrap_or(f64::NAN) * wide;
         (v != 0.0).then(|| Correction { parameter, factor: v.exp(), deviation: deviation * v.exp() })
     };
-    values.zip(names).enumerate().filter_map(of).collect()
+    values.zip(names).enumerate().filter_map(correction).collect()
 }
 
 /// Corrections of the parts of the structure that a fit moved along their directions.

@@ -33,11 +33,11 @@ pub(crate) fn scales(effects: &[Source]) -> Vec<Vec<f64>> {
 
 /// Derivative of each law parameter by its variable.
 pub(crate) fn slopes(effects: &[Source], scales: &[Vec<f64>]) -> Vec<f64> {
-    let of = |(effect, scales): (&Source, &Vec<f64>)| -> Vec<f64> {
+    let slopes_of_law = |(effect, scales): (&Source, &Vec<f64>)| -> Vec<f64> {
         let list: &[Parameter] = Effect::parameters(effect.effect);
         let slope =
             |(j, p): (usize, &Parameter)| at_variable(p, scales[j], variable(p, scales[j], effect.parameters[j]))[1];
         list.iter().enumerate().map(slope).collect()
     };
-    effects.iter().zip(scales).flat_map(of).collect()
+    effects.iter().zip(scales).flat_map(slopes_of_law).collect()
 }

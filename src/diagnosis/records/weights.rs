@@ -27,11 +27,11 @@ pub(super) fn local(signal: &[f64], half: usize) -> Vec<f64> {
     for k in 0..n {
         sums[k + 1] = sums[k] + signal[k] * signal[k];
     }
-    let at = |k: usize| {
+    let rms_at_sample = |k: usize| {
         let (from, to) = (k.saturating_sub(half), (k + half + 1).min(n));
         ((sums[to] - sums[from]).max(0.0) / (to - from) as f64).sqrt()
     };
-    (0..n).map(at).collect()
+    (0..n).map(rms_at_sample).collect()
 }
 
 /// Standard deviations with the share of the motion `signal` by which any model is wrong; `half` samples on either side.
@@ -51,12 +51,12 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
     let mean = local(&high, half);
     // The mean of a few squares of noise scatters: only what is well above it is no noise.
     let scatter = 1.0 + 3.0 * (2.0 / (above * (2 * half + 1) as f64)).sqrt();
-    let of = |k: usize| {
+    let deviation_at_sample = |k: usize| {
         let own = mean[k].powi(2);
         let rest = if own > scatter * above * noise * noise { own - above * noise * noise } else { 0.0 };
         (noise * noise + rest).sqrt()
     };
-    (0..n).map(of).collect()
+    (0..n).map(deviation_at_sample).collect()
 }
 
 /// The part of a signal between two frequencies; it is continued as in a mirror, so that its ends do not jump.
@@ -88,12 +88,12 @@ mod tests {
     #[test]
     fn what_lies_above_the_corner_counts_as_noise_where_it_is() {
         let (step, noise) = (1e-3, 1e-4);
-        let at = |n: usize| {
+        let burst_on_sine = |n: usize| {
             let t = n as f64 * step;
             let burst = if (400..600).contains(&n) { 0.1 * (TAU * 200.0 * t).sin() } else { 0.0 };
             (TAU * 20.0 * t).sin() + burst
         };
-        let signal: Vec<f64> = (0..1000).map(at).collect();
+        let signal: Vec<f64> = (0..1000).map(burst_on_sine).collect();
         let sigma = deviations(&signal, noise, step, 60.0);
         assert!((sigma[500] / (0.1 / 2.0_f64.sqrt()) - 1.0).abs() < 0.1, "{}", sigma[500]);
         assert!(sigma[200] < 0.01 && sigma[800] < 0.01, "{} {}", sigma[200], sigma[800]);
