@@ -215,7 +215,7 @@ fn of_points(problem: &Problem, others: &[Source], source: &Source) -> Result<Op
 
 /// Amplitude of the measured relative motion, m.
 fn fundamental(run: &RunData, first: usize, second: Option<usize>) -> Option<f64> {
-    let at = |dof| measured_displacement(run, dof).and_then(|x| x.first().copied());
-    let other = second.map_or(Some(c64::new(0.0, 0.0)), at)?;
-    Some((at(first)? - other).norm())
+    let displacement = |dof| measured_displacement(run, dof).and_then(|x| x.first().copied());
+    let other = second.map_or(Some(c64::new(0.0, 0.0)), displacement)?;
+    Some((displacement(first)? - other).norm())
 }

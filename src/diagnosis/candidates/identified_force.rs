@@ -126,7 +126,7 @@ impl PlaceData {
 
     /// The same with the number of the run in the data.
     pub(crate) fn ratios_by_run(&self) -> Vec<(usize, Ratio)> {
-        let of = |(r, (motion, forces)): (usize, (&Motion, &Vec<FreeForce>))| {
+        let ratio_of_run = |(r, (motion, forces)): (usize, (&Motion, &Vec<FreeForce>))| {
             let (d, free) = (*motion.harmonics.first()?, *forces.first()?);
             let amplitude = d.norm();
             let weight = free.weight * amplitude * amplitude;
@@ -139,7 +139,7 @@ impl PlaceData {
             };
             (amplitude > 0.0 && free.weight > 0.0).then(|| (r, ratio()))
         };
-        self.motions.iter().zip(&self.forces).enumerate().filter_map(of).collect()
+        self.motions.iter().zip(&self.forces).enumerate().filter_map(ratio_of_run).collect()
     }
 
     /// Number of real data.
@@ -265,12 +265,12 @@ impl PlaceData {
         let amplitudes = self.forces.iter().filter(|f| !f.is_empty()).map(|f| f[0].value.norm()).collect();
         let sizes = sizes(amplitudes);
         let shapes = effect.shapes(&self.range);
-        let of = |shape: &Vec<f64>, size: f64| {
+        let scaled_shape = |shape: &Vec<f64>, size: f64| {
             let mut p = shape.clone();
             effect.scaled().iter().for_each(|&k| p[k] *= size / law.bounds(shape)[1]);
             p
         };
-        shapes.iter().flat_map(|shape| sizes.iter().map(move |&size| of(shape, size))).collect()
+        shapes.iter().flat_map(|shape| sizes.iter().map(move |&size| scaled_shape(shape, size))).collect()
     }
 
     /// What friction of the parameters `p` leaves of the free force.

@@ -24,7 +24,7 @@ impl PlaceData {
     /// channel its relative error); `None` of an effect that cannot act here.
     pub(crate) fn forces_of(&self, source: &Source) -> Option<Vec<Vec<c64>>> {
         let p = &source.parameters;
-        let of: Box<dyn Fn(usize, usize) -> Vec<c64>> = match (source.effect.kind(), &self.spot) {
+        let force_in_run: Box<dyn Fn(usize, usize) -> Vec<c64>> = match (source.effect.kind(), &self.spot) {
             (Kind::Relative(law), Spot::Leg(_)) => match friction(source.effect) {
                 Some(friction) => Box::new(move |r, order| self.held(friction, p, r, order)),
                 None => Box::new(move |r, order| self.law_force(law, p, r, order)),
@@ -34,7 +34,7 @@ impl PlaceData {
             }
             _ => return None,
         };
-        Some(self.forces.iter().enumerate().map(|(r, forces)| of(r, forces.len())).collect())
+        Some(self.forces.iter().enumerate().map(|(r, forces)| force_in_run(r, forces.len())).collect())
     }
 
     /// Harmonics of the force of a law at the motion of run `r` and the mean that its own mean force gives it there, which no
@@ -50,10 +50,10 @@ impl PlaceData {
 
     pub(super) fn at_motion(&self, law: &dyn Law, p: &[f64], motion: &Motion, order: usize) -> Vec<c64> {
         if law.dynamic_stiffness(p, motion.omega).is_some() {
-            let at = |(i, d): (usize, &c64)| {
+            let force_at_harmonic = |(i, d): (usize, &c64)| {
                 law.dynamic_stiffness(p, (i + 1) as f64 * motion.omega).unwrap_or(c64::new(0.0, 0.0)) * d
             };
-            return motion.harmonics.iter().enumerate().map(at).collect();
+            return motion.harmonics.iter().enumerate().map(force_at_harmonic).collect();
         }
         let mut samples = vec![0.0; motion.len()];
         law.force(p, motion, &mut samples);

@@ -166,8 +166,7 @@ fn corrected(problem: &Problem, corrections: &[Correction], data: &Data) -> Resu
 fn drawn(data: &PlaceData, place: &Place, law: Option<&Source>, all: &Data, levels: &Levels) -> Option<RestoringForce> {
     let mut chosen = telling(data, levels);
     chosen.sort_by_key(|&r| (levels.numbers[r], r));
-    let of = |&r: &usize| run_force(data, law, &all.runs[r], r, levels);
-    let runs: Vec<RunForce> = chosen.iter().map(of).collect();
+    let runs: Vec<RunForce> = chosen.iter().map(|&r| run_force(data, law, &all.runs[r], r, levels)).collect();
     (!runs.is_empty()).then(|| RestoringForce { place: place.clone(), law: law.cloned(), runs })
 }
 

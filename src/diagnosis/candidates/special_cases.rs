@@ -27,13 +27,13 @@ mod tests {
 
     #[test]
     fn what_is_excluded_does_not_come_back_by_another_name() {
-        let at = |dof, effect, parameters: &[f64]| Source::known(effect, Place::Dofs(vec![dof]), parameters);
-        let excluded = [at(6, Effect::Coulomb, &[1.0])];
+        let known_source = |dof, effect, parameters: &[f64]| Source::known(effect, Place::Dofs(vec![dof]), parameters);
+        let excluded = [known_source(6, Effect::Coulomb, &[1.0])];
         let falls = [0.2, 0.3, 0.05];
-        assert!(!is_allowed(&excluded, &at(6, Effect::Coulomb, &[0.2]), &[0.01]));
-        assert!(!is_allowed(&excluded, &at(6, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
-        assert!(is_allowed(&excluded, &at(6, Effect::Stribeck, &falls), &[0.01, 0.02, 0.01]));
-        assert!(is_allowed(&excluded, &at(4, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
-        assert!(is_allowed(&excluded, &at(6, Effect::Viscous, &[0.2]), &[0.3]));
+        assert!(!is_allowed(&excluded, &known_source(6, Effect::Coulomb, &[0.2]), &[0.01]));
+        assert!(!is_allowed(&excluded, &known_source(6, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
+        assert!(is_allowed(&excluded, &known_source(6, Effect::Stribeck, &falls), &[0.01, 0.02, 0.01]));
+        assert!(is_allowed(&excluded, &known_source(4, Effect::Stribeck, &falls), &[0.01, 0.4, 0.01]));
+        assert!(is_allowed(&excluded, &known_source(6, Effect::Viscous, &[0.2]), &[0.3]));
     }
 }

@@ -60,8 +60,8 @@ pub(crate) fn place_of_force(predictor: &Predictor, data: &Data, predictions: &[
 /// DOF of each response channel; 0 where there is none of that name.
 fn dofs(data: &Data, names: &[String]) -> Vec<usize> {
     let responses = || data.runs.iter().flat_map(|run| &run.responses);
-    let of = |name: &String| responses().find(|channel| channel.name == *name).map_or(0, |channel| channel.dof);
-    names.iter().map(of).collect()
+    let dof_of = |name: &String| responses().find(|channel| channel.name == *name).map_or(0, |channel| channel.dof);
+    names.iter().map(dof_of).collect()
 }
 
 /// Modes up to the highest frequency that was measured.

@@ -15,15 +15,15 @@ const PARTS: usize = 8;
 /// # Errors
 /// [`ComponentError::NoTimeDomain`] for laws without a force in time.
 pub fn compare_component(loops: &Loops, effects: &[Source]) -> Result<RecordComparison, ComponentError> {
-    let one = |l: &Loop| -> Result<OneRecord, ComponentError> {
+    let compare_loop = |l: &Loop| -> Result<OneRecord, ComponentError> {
         let mut model = predicted(loops, l, effects)?;
         // The zero of the force cell is not known.
         let mean = l.force.iter().zip(&model).map(|(f, m)| f - m).sum::<f64>() / model.len() as f64;
         model.iter_mut().for_each(|m| *m += mean);
         Ok(compared(l, model, noise_left(loops, l, effects)?))
     };
-    let records: Vec<OneRecord> = loops.list.iter().map(one).collect::<Result<_, _>>()?;
-    let over = |of: &dyn Fn(&OneRecord) -> f64| root_mean_square(&records.iter().map(of).collect::<Vec<f64>>());
+    let records: Vec<OneRecord> = loops.list.iter().map(compare_loop).collect::<Result<_, _>>()?;
+    let over = |value: &dyn Fn(&OneRecord) -> f64| root_mean_square(&records.iter().map(value).collect::<Vec<f64>>());
     Ok(RecordComparison { error: over(&|r| r.error), noise_floor: over(&|r| r.noise_floor), records })
 }
 
@@ -39,8 +39,8 @@ fn noise_left(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<f64, Comp
 
 /// What noise leaves over the size of the force, root mean square over the records.
 pub(super) fn noise_floor(loops: &Loops, effects: &[Source]) -> Result<f64, ComponentError> {
-    let of = |one: &Loop| Ok::<f64, ComponentError>(noise_left(loops, one, effects)? / one.size());
-    Ok(root_mean_square(&loops.list.iter().map(of).collect::<Result<Vec<f64>, _>>()?))
+    let noise_share = |one: &Loop| Ok::<f64, ComponentError>(noise_left(loops, one, effects)? / one.size());
+    Ok(root_mean_square(&loops.list.iter().map(noise_share).collect::<Result<Vec<f64>, _>>()?))
 }
 
 fn compared(one: &Loop, model: Vec<f64>, noise: f64) -> OneRecord {
@@ -50,9 +50,9 @@ fn compared(one: &Loop, model: Vec<f64>, noise: f64) -> OneRecord {
     let part = |k: usize| {
         let range = k * length..(k + 1) * length;
         let size = root_mean_square(&one.force[range.clone()]);
-        let at = |n: usize| one.first_s + n as f64 * one.step;
+        let time_at_sample = |n: usize| one.first_s + n as f64 * one.step;
         RecordPart {
-            range: [at(range.start), at(range.end)],
+            range: [time_at_sample(range.start), time_at_sample(range.end)],
             size: size / one.size(),
             error: root_mean_square(&left[range]) / size.max(f64::MIN_POSITIVE),
         }

@@ -126,11 +126,11 @@ pub(super) fn improved(
 
 /// Relative error of `effects` on the records in `used`.
 pub(super) fn error(loops: &Loops, effects: &[Source], used: &[usize]) -> Result<f64, ComponentError> {
-    let of = |k: &usize| -> Result<f64, ComponentError> {
+    let residual_norm = |k: &usize| -> Result<f64, ComponentError> {
         let rest = left(loops, &loops.list[*k], effects)?;
         Ok(dot(&rest, &rest).sqrt())
     };
-    let all: Vec<f64> = used.iter().map(of).collect::<Result<_, _>>()?;
+    let all: Vec<f64> = used.iter().map(residual_norm).collect::<Result<_, _>>()?;
     Ok(root_mean_square(&all))
 }
 
@@ -156,13 +156,13 @@ fn derivatives(
     at: &[f64],
 ) -> Result<Vec<Vec<f64>>, ComponentError> {
     let count: usize = effects.iter().map(|e| e.parameters.len()).sum();
-    let one = |k: usize| -> Result<Vec<f64>, ComponentError> {
+    let derivative = |k: usize| -> Result<Vec<f64>, ComponentError> {
         let mut change = vec![0.0; count];
         change[k] = STEP;
         let there = residual(loops, &moved(effects, scales, &change), used)?;
         Ok(there.iter().zip(at).map(|(b, a)| (b - a) / STEP).collect())
     };
-    (0..count).map(one).collect()
+    (0..count).map(derivative).collect()
 }
 
 fn step(jacobian: &[Vec<f64>], at: &[f64], damping: f64) -> Option<Vec<f64>> {

@@ -77,12 +77,12 @@ impl Search<'_> {
 
     /// Error of a set on each record, fitted to the others.
     fn held_out(&self, fit: &Fitted) -> Result<f64, ComponentError> {
-        let one = |k: usize| {
+        let held_out_error = |k: usize| {
             let others: Vec<usize> = self.all.iter().copied().filter(|&j| j != k).collect();
             let learnt = improved(self.loops, &fit.effects, &others, STEPS, self.control)?;
             error(self.loops, &learnt.effects, &[k])
         };
-        let all = self.control.map(self.all.len(), one).into_iter().collect::<Result<Vec<f64>, _>>()?;
+        let all = self.control.map(self.all.len(), held_out_error).into_iter().collect::<Result<Vec<f64>, _>>()?;
         Ok(root_mean_square(&all))
     }
 }

@@ -123,8 +123,8 @@ impl Search<'_> {
     /// The first `count` starts fitted in all parameters, by evidence.
     fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
         let few: Vec<Vec<Source>> = starts.into_iter().take(count).collect();
-        let one = |k: usize| improved(self.loops, &few[k], &self.all, ITERATIONS, self.control);
-        let mut fits = self.control.map(few.len(), one).into_iter().collect::<Result<Vec<Fitted>, _>>()?;
+        let fitted_start = |k: usize| improved(self.loops, &few[k], &self.all, ITERATIONS, self.control);
+        let mut fits = self.control.map(few.len(), fitted_start).into_iter().collect::<Result<Vec<Fitted>, _>>()?;
         fits.retain(|f| {
             let mut at = 0;
             f.effects.iter().all(|e| {
@@ -188,11 +188,11 @@ impl Search<'_> {
 
     /// Relative error of the energy of the records, root mean square.
     fn energy_error(&self, fit: &Fitted) -> Result<f64, ComponentError> {
-        let of = |one: &crate::balance::loops::Loop| -> Result<f64, ComponentError> {
+        let relative_error = |one: &crate::balance::loops::Loop| -> Result<f64, ComponentError> {
             let (measured, model) = (one.work(&one.force), one.work(&predicted(self.loops, one, &fit.effects)?));
             Ok((model - measured) / measured)
         };
-        let all: Vec<f64> = self.loops.list.iter().map(of).collect::<Result<_, _>>()?;
+        let all: Vec<f64> = self.loops.list.iter().map(relative_error).collect::<Result<_, _>>()?;
         Ok(root_mean_square(&all))
     }
 }
@@ -230,10 +230,10 @@ pub(super) fn parameters(fit: &Fitted) -> usize {
 
 fn added(fit: &Fitted) -> Vec<Added> {
     let mut at = 0;
-    let of = |source: &Source| {
+    let with_deviations = |source: &Source| {
         let deviations = fit.deviations[at..at + source.parameters.len()].to_vec();
         at += source.parameters.len();
         Added { source: source.clone(), deviations }
     };
-    fit.effects.iter().map(of).collect()
+    fit.effects.iter().map(with_deviations).collect()
 }

@@ -85,7 +85,7 @@ impl Screen {
         }
         let mut cells = Vec::with_capacity(data.runs.len());
         for (r, run) in data.runs.iter().enumerate() {
-            let at = |h: usize| {
+            let cell_of_harmonic = |h: usize| {
                 let prediction = &predictions[r].channels;
                 let [common, own] = linearisation.of_harmonic(r, h);
                 let reference = linearisation.own_reference(r);
@@ -116,7 +116,7 @@ impl Screen {
                     gram: OnceLock::new(),
                 }
             };
-            cells.push((1..=run.harmonics).map(at).collect());
+            cells.push((1..=run.harmonics).map(cell_of_harmonic).collect());
         }
         let reference = linearisation.updating.standardised();
         let mut screen = Self { spots, cells, reference, common: OnceLock::new(), without_prior: 0, misfit: 1.0 };
@@ -183,7 +183,7 @@ impl Screen {
     /// How the free force at one spot would change with the parameters that are free; `None` where none is.
     pub(crate) fn freedom(&self, spot: usize) -> Option<ForceFreedom> {
         let freed = self.freed(&[spot])?;
-        let of = |cell: &Cell| {
+        let freedom_of_cell = |cell: &Cell| {
             let square = cell.squares[spot];
             if square <= 0.0 || cell.is_held() {
                 return None;
@@ -204,7 +204,7 @@ impl Screen {
             };
             Some(HarmonicForceFreedom { common, own: [spread(0, 0), spread(0, 1), spread(1, 1)] })
         };
-        let runs = self.cells.iter().map(|run| run.iter().map(of).collect()).collect();
+        let runs = self.cells.iter().map(|run| run.iter().map(freedom_of_cell).collect()).collect();
         Some(ForceFreedom { runs, information: freed.normal })
     }
 
@@ -215,8 +215,8 @@ impl Screen {
 
     /// Every single place, best first.
     pub(crate) fn singles(&self) -> Vec<Placing> {
-        let of = |s: usize| Placing { spots: vec![s], chi_square: self.left(&[s], |cell| cell.left_by(s)) };
-        sorted((0..self.spots.len()).map(of).collect())
+        let single_place = |s: usize| Placing { spots: vec![s], chi_square: self.left(&[s], |cell| cell.left_by(s)) };
+        sorted((0..self.spots.len()).map(single_place).collect())
     }
 
     /// Every pair of places, best first.
@@ -237,13 +237,13 @@ impl Screen {
         best
     }
 
-    fn sum(&self, of: impl Fn(&Cell) -> f64) -> f64 {
-        self.cells.iter().flatten().map(of).sum()
+    fn sum(&self, value: impl Fn(&Cell) -> f64) -> f64 {
+        self.cells.iter().flatten().map(value).sum()
     }
 
-    /// What free forces at `spots` and the parameters leave; `of` is what the forces alone leave of a cell.
-    fn left(&self, spots: &[usize], of: impl Fn(&Cell) -> f64) -> f64 {
-        let alone = self.sum(of);
+    /// What free forces at `spots` and the parameters leave; `left_of_cell` is what the forces alone leave of a cell.
+    fn left(&self, spots: &[usize], left_of_cell: impl Fn(&Cell) -> f64) -> f64 {
+        let alone = self.sum(left_of_cell);
         let Some(freed) = self.freed(spots) else { return alone };
         let prior: f64 = self.reference.iter().map(|u| u * u).sum();
         alone + self.misfit * prior - freed.gain
@@ -311,8 +311,8 @@ impl Screen {
         for (r, run) in self.cells.iter().enumerate() {
             let local = |k: usize| freed.as_ref().and_then(|freed| freed.locals[r][k].as_ref());
             let own = |k: usize| local(k).map_or_else(Vec::new, |local| local.own(change));
-            let at = |(k, cell): (usize, &Cell)| cell.corrected(change, &own(k)).solve(spots);
-            let solved: Vec<Vec<FreeForce>> = run.iter().enumerate().map(at).collect();
+            let forces_of_cell = |(k, cell): (usize, &Cell)| cell.corrected(change, &own(k)).solve(spots);
+            let solved: Vec<Vec<FreeForce>> = run.iter().enumerate().map(forces_of_cell).collect();
             for (k, list) in forces.iter_mut().enumerate() {
                 list.push(solved.iter().map(|cell| cell[k]).collect());
             }
@@ -342,11 +342,11 @@ fn unit(
         Spot::Response(name) if *name == channel.name => prediction[c][h - 1],
         Spot::Response(_) => c64::new(0.0, 0.0),
         Spot::Force(name) => {
-            let at = |f: &crate::diagnosis::residual::data::ChannelData| {
+            let response_to_force = |f: &crate::diagnosis::residual::data::ChannelData| {
                 let leg = Leg { first: f.dof, second: None };
                 -receptances.channel(r, run, h, channel, leg) * f.measured[h - 1]
             };
-            run.forces.iter().filter(|f| f.name == *name).map(at).sum()
+            run.forces.iter().filter(|f| f.name == *name).map(response_to_force).sum()
         }
     }
 }

@@ -106,11 +106,11 @@ fn at_measured_motion(
 
 /// No more harmonics than the noise of the run lets see; what is cut off counts as noise.
 fn settings(run: &RunData) -> Settings {
-    let of = |c: &usize| {
+    let relative_noise = |c: &usize| {
         let channel = &run.responses[*c];
         channel.deviation.first().map_or(0.0, |d| d / channel.size())
     };
-    let noise = run.alive.iter().map(of).filter(|n| n.is_finite()).fold(f64::INFINITY, f64::min);
+    let noise = run.alive.iter().map(relative_noise).filter(|n| n.is_finite()).fold(f64::INFINITY, f64::min);
     let seen = if noise.is_finite() { SHARE * noise } else { 0.0 };
     Settings { truncation: seen.clamp(FINAL.truncation, COARSEST), patience: usize::MAX, ..FINAL }
 }
@@ -122,13 +122,13 @@ fn largest(prediction: &RunPrediction) -> f64 {
 
 /// Sum over the channels of the squared relative errors.
 pub(crate) fn distance(run: &RunData, prediction: &RunPrediction) -> f64 {
-    let of = |c: usize| {
+    let squared_error = |c: usize| {
         let pairs = run.responses[c].measured.iter().zip(&prediction.channels[c]);
         let difference: f64 = pairs.map(|(y, m): (&c64, &c64)| (y - m).norm_sqr()).sum();
         let scale = run.scale(c);
         if scale > 0.0 { difference / (scale * scale) } else { 0.0 }
     };
-    (0..run.responses.len()).map(of).sum()
+    (0..run.responses.len()).map(squared_error).sum()
 }
 
 #[cfg(test)]

@@ -50,8 +50,8 @@ pub(crate) fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64
     // The least differentiated channel is the most direct one.
     let order = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
     let channel = order.iter().find_map(|q| run.responses.iter().find(|c| c.dof == dof && c.quantity == *q))?;
-    let at = |(i, y): (usize, &c64)| *y / channel.from_displacement((i + 1) as f64 * run.omega);
-    Some(channel.measured.iter().enumerate().map(at).collect())
+    let displacement = |(i, y): (usize, &c64)| *y / channel.from_displacement((i + 1) as f64 * run.omega);
+    Some(channel.measured.iter().enumerate().map(displacement).collect())
 }
 
 /// The field of a prediction scaled to the sensors, one complex factor a harmonic.

@@ -90,11 +90,11 @@ pub struct Predictor {
 }
 
 /// The model at every frequency; runs of one frequency share what is computed there.
-fn run_models(omegas: &[f64], at: impl Fn(f64) -> RunModel) -> Vec<RunModel> {
+fn run_models(omegas: &[f64], model_at: impl Fn(f64) -> RunModel) -> Vec<RunModel> {
     let mut runs: Vec<RunModel> = Vec::with_capacity(omegas.len());
     for &omega in omegas {
         let same = runs.iter().find(|run| run.omega() == omega).cloned();
-        runs.push(same.unwrap_or_else(|| at(omega)));
+        runs.push(same.unwrap_or_else(|| model_at(omega)));
     }
     runs
 }

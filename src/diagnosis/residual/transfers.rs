@@ -27,9 +27,9 @@ pub(crate) fn transfers(
         let unit = predictor.run(r).respond(&sources, &excitation, &FINAL, None, control)?;
         for (h, a) in a.iter_mut().enumerate() {
             let w = (h + 1) as f64 * run.omega;
-            let of =
+            let response_to_unit =
                 |c: &ChannelData| transfer(effects, &c.name, w) * c.from_displacement(w) * unit.amplitude(c.dof, h + 1);
-            a.push(run.responses.iter().map(of).collect());
+            a.push(run.responses.iter().map(response_to_unit).collect());
         }
     }
     if let [force] = &run.forces[..]

@@ -86,8 +86,7 @@ impl Whitening {
     /// Whitened real and imaginary parts of all harmonics, local parameters not eliminated; `value(c, h)` is the entry of
     /// response channel `c` at harmonic `h`.
     pub(crate) fn rows(&self, value: impl Fn(usize, usize) -> c64) -> Vec<f64> {
-        let of = |h: usize| self.apply(h, |c| value(c, h));
-        (1..=self.factors.len()).flat_map(of).flat_map(|e| [e.re, e.im]).collect()
+        (1..=self.factors.len()).flat_map(|h| self.apply(h, |c| value(c, h))).flat_map(|e| [e.re, e.im]).collect()
     }
 
     /// `ln det` of the covariance of all real values, what is the run's own not included.
@@ -111,7 +110,7 @@ impl Whitening {
     /// `e(c, h)` shows of the noise of the force: that is one number a harmonic, often the largest of all, and its scatter
     /// must not pass for an error of the model. Where the residual is more than noise it shows nothing.
     pub(crate) fn expected_given(&self, c: usize, e: impl Fn(usize, usize) -> c64) -> f64 {
-        let at = |(i, force): (usize, &Option<(f64, Vec<c64>)>)| {
+        let expected_at_harmonic = |(i, force): (usize, &Option<(f64, Vec<c64>)>)| {
             let h = i + 1;
             let white: f64 = self.apply(h, |k| e(k, h)).iter().map(c64::norm_sqr).sum();
             let Some((variance, a)) = force.as_ref().filter(|_| white < NOISY * 2.0 * self.alive.len() as f64) else {
@@ -125,7 +124,7 @@ impl Whitening {
             let left = 1.0 / (1.0 / variance.max(f64::MIN_POSITIVE) + square);
             self.own[c][i] + a[c].norm_sqr() * ((product * left).norm_sqr() + 2.0 * left)
         };
-        self.force.iter().enumerate().map(at).sum()
+        self.force.iter().enumerate().map(expected_at_harmonic).sum()
     }
 
     /// Standard deviation of one real part of harmonic `h` (from 1) of channel `c`.

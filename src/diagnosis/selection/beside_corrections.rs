@@ -317,7 +317,7 @@ mod tests {
     fn runs() -> Vec<Run> {
         let (structure, deviation) = (three_masses([1.02, 1.0, 1.0]), 1e-7);
         let model = ForwardModel::new(&structure, &[known()]).unwrap();
-        let one = |(omega, force): (f64, f64)| {
+        let measured_run = |(omega, force): (f64, f64)| {
             let amplitude = c64::new(force, 0.0);
             let excitation = Excitation::sine(omega, 2, amplitude);
             let (sources, control) = ([known(), hidden()], Control::unattended());
@@ -328,7 +328,7 @@ mod tests {
             channels.extend((0..3).map(|dof| channel(Quantity::Displacement, dof, motion(dof), deviation)));
             run(format!("{omega} rad/s, {force} N"), omega, channels)
         };
-        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(one).collect()
+        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(measured_run).collect()
     }
 
     /// The effects that are left of a set of which the data know the parameters of those in `open` not, and the factor on the ground

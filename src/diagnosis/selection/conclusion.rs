@@ -132,14 +132,14 @@ impl Outcome<'_> {
 pub(crate) fn early(reference: &ReferenceModel, fits: &[FittedModel]) -> Vec<Suggestion> {
     let scale = scale_of(fits, reference.count());
     let weights = reference.probabilities(fits);
-    let of = |(fit, &probability): (&FittedModel, &f64)| {
+    let suggestion = |(fit, &probability): (&FittedModel, &f64)| {
         let added = added(fit, scale).pop()?;
         let evidence = vec![added.source.effect.sentence().to_string()];
         let (error_after, held_out_error_after) = (fit.error, fit.error);
         let indistinguishable_from = Vec::new();
         Some(Suggestion { added, error_after, held_out_error_after, probability, evidence, indistinguishable_from })
     };
-    fits.iter().zip(&weights).take(MOST).filter_map(of).collect()
+    fits.iter().zip(&weights).take(MOST).filter_map(suggestion).collect()
 }
 
 /// The effects of the best set in the order in which they help, each prefix fitted.
@@ -220,7 +220,7 @@ pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
     let updating = &reference.linearisation.updating;
     let told = reference.with_scales(updating.scales.at_least(&Scales::SEARCH));
     let variances = told.noise.updating.variances();
-    let of = |(k, parameter): (usize, &UpdatingParameter)| {
+    let correction = |(k, parameter): (usize, &UpdatingParameter)| {
         let deviation = told.linearisation.updating.prior(k) * variances.get(k)?.sqrt();
         let factor = updating.values[k].exp();
         parameter.is_stated().then(|| Correction {
@@ -229,7 +229,7 @@ pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
             deviation: deviation * factor,
         })
     };
-    updating.parameters.iter().enumerate().filter_map(of).collect()
+    updating.parameters.iter().enumerate().filter_map(correction).collect()
 }
 
 /// The effects of a fit; what the model leaves beyond the noise widens their deviations.

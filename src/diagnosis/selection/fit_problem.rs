@@ -57,13 +57,13 @@ pub(crate) fn run_slopes(
         let (own, others) = rest.split_at(sum.len());
         rest = others;
         let channel = |(c, channel): (usize, &ChannelData)| -> Vec<c64> {
-            let at = |h: usize| {
+            let slope_at_harmonic = |h: usize| {
                 let w = h as f64 * run.omega;
                 let entry = |m: &Mat<c64>| if h <= m.ncols() { m[(c, h - 1)] } else { ZERO };
                 let change = own.iter().zip(sum).fold(ZERO, |s, (m, (_, factor))| s + entry(m) * *factor);
                 transfer(effects, &channel.name, w) * channel.from_displacement(w) * change
             };
-            (1..=run.harmonics).map(at).collect()
+            (1..=run.harmonics).map(slope_at_harmonic).collect()
         };
         slopes.push(run.responses.iter().enumerate().map(channel).collect());
     }
@@ -156,8 +156,8 @@ impl OnResponse<'_> {
     /// Which variables are parameters of channels: their columns are differences.
     fn of_channels(&self) -> Vec<bool> {
         let effects = self.variables.effects(&vec![0.0; self.variables.len()]);
-        let of = |e: &Source| vec![matches!(e.effect.kind(), Kind::Channel(_)); e.parameters.len()];
-        effects.iter().flat_map(of).collect()
+        let channel_flags = |e: &Source| vec![matches!(e.effect.kind(), Kind::Channel(_)); e.parameters.len()];
+        effects.iter().flat_map(channel_flags).collect()
     }
 }
 

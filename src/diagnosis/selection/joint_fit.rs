@@ -284,7 +284,7 @@ mod tests {
     /// Records of a chain whose ground spring is 2 % stiffer than stated, whose runs drift, and which hides a cubic spring.
     fn runs() -> Vec<Run> {
         let model = ForwardModel::new(&chain(1.02), &known()).unwrap();
-        let one = |name: usize, quantity, dof: usize, amplitudes: Vec<c64>| ChannelFit {
+        let channel_fit = |name: usize, quantity, dof: usize, amplitudes: Vec<c64>| ChannelFit {
             channel: Channel { quantity, dof, label: format!("{}", name + 1) },
             offset: 0.0,
             slope: 0.0,
@@ -304,9 +304,9 @@ mod tests {
             let response = model.respond(&sources, &excitation, &FINAL, None, &Control::unattended()).unwrap();
             let zeros = vec![c64::new(0.0, 0.0); 2];
             let forces = [vec![c64::new(force, 0.0)], zeros].concat();
-            let mut channels = vec![one(2, Quantity::Force, 2, forces)];
+            let mut channels = vec![channel_fit(2, Quantity::Force, 2, forces)];
             let motion = |d: usize| (1..=3).map(|h| response.amplitude(d, h)).collect();
-            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, d, motion(d))));
+            channels.extend((0..3).map(|d| channel_fit(d, Quantity::Displacement, d, motion(d))));
             let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
             Run::from_harmonics(format!("{r}"), None, true, fit, &[])
         };

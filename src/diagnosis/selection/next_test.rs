@@ -42,11 +42,11 @@ impl Trial {
         let sizes = reference.data.runs.iter().flat_map(|r| r.forces.iter().map(|f| (f.dof, f.size())));
         let Some((dof, force)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let omega = |k: usize| 0.9 * low * (1.1 * high / (0.9 * low)).powf(k as f64 / (FREQUENCIES - 1) as f64);
-        let at = |k: usize, level: f64| {
+        let trial = |k: usize, level: f64| {
             let force = level * force;
             Self { excitation: Excitation::sine(omega(k), dof, c64::new(force, 0.0)), dof, force }
         };
-        (0..FREQUENCIES).flat_map(|k| LEVELS.map(|level| at(k, level))).collect()
+        (0..FREQUENCIES).flat_map(|k| LEVELS.map(|level| trial(k, level))).collect()
     }
 
     fn respond(&self, reference: &ReferenceModel, effects: &[Source], start: Option<&Response>) -> Option<Response> {

@@ -107,12 +107,12 @@ impl<'a> ReferenceModel<'a> {
         effects: &[Source],
         whitening: impl Fn((usize, &RunData), &Transfers) -> Whitening,
     ) -> Result<Vec<Whitening>, DiagnosisError> {
-        let of = |(r, run): (usize, &RunData)| {
+        let whitened_run = |(r, run): (usize, &RunData)| {
             let failed = |reason| DiagnosisError::of_response(format!("number {}", run.index + 1), reason);
             let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
             Ok(whitening((r, run), &a))
         };
-        self.data.runs.iter().enumerate().map(of).collect()
+        self.data.runs.iter().enumerate().map(whitened_run).collect()
     }
 
     /// What fits on the response are made with.
@@ -203,8 +203,8 @@ impl<'a> ReferenceModel<'a> {
 
 /// Roots of the sums of squares, entry by entry; what `a` has no entries for is 0.
 fn quadrature(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let at = |c: usize, h: usize| a.get(c).and_then(|list| list.get(h)).copied().unwrap_or(0.0);
-    let channel = |(c, list): (usize, &Vec<f64>)| list.iter().enumerate().map(|(h, e)| e.hypot(at(c, h))).collect();
+    let entry = |c: usize, h: usize| a.get(c).and_then(|list| list.get(h)).copied().unwrap_or(0.0);
+    let channel = |(c, list): (usize, &Vec<f64>)| list.iter().enumerate().map(|(h, e)| e.hypot(entry(c, h))).collect();
     b.iter().enumerate().map(channel).collect()
 }
 

@@ -293,12 +293,12 @@ impl ReferenceModel<'_> {
         }
         let (forces, fields) = self.free(view, &placing.spots);
         let fields = Arc::new(fields);
-        let of = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
+        let regressed_spot = |(&s, forces): (&usize, &Vec<Vec<FreeForce>>)| {
             let data = self.at_place(view, s, forces, &fields);
             let simple = data.simple_fits();
             Arc::new(Regressed { data, fields: fields.clone(), simple })
         };
-        placing.spots.iter().zip(&forces).map(of).collect()
+        placing.spots.iter().zip(&forces).map(regressed_spot).collect()
     }
 
     /// The laws of `breadth` at a spot beside `effects`.

@@ -56,9 +56,9 @@ pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> V
         let best = laws[k].iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
         placings[k].chi_square + best
     };
-    let sorted = |of: &dyn Fn(usize) -> f64| {
+    let sorted = |key: &dyn Fn(usize) -> f64| {
         let mut order: Vec<usize> = (0..placings.len()).collect();
-        order.sort_by(|&a, &b| of(a).total_cmp(&of(b)));
+        order.sort_by(|&a, &b| key(a).total_cmp(&key(b)));
         order.truncate(TELLING);
         order
     };

@@ -100,7 +100,7 @@ impl<'a> ReferenceModel<'a> {
         let mut units = Vec::new();
         for effect in Effect::ALL.into_iter().filter(|e| e.is_linear() && e.parameters().len() == 1) {
             let unit = |place: Place| Source { effect, place, state: State::Known, parameters: vec![1.0] };
-            let at = |place: &&Place| match (effect.kind(), place) {
+            let may_act_at = |place: &&Place| match (effect.kind(), place) {
                 // Corrections of modes do not stand for errors of one part: a spring or mass may be one.
                 (Kind::Relative(_), Place::Dofs(_)) => !(by_modes && effect.is_mass_or_spring()),
                 (Kind::Channel(law), Place::Channel(name)) => {
@@ -110,7 +110,7 @@ impl<'a> ReferenceModel<'a> {
             };
             match effect.kind() {
                 Kind::Whole(_) => units.push(unit(Place::Whole(None))),
-                _ => units.extend(places.iter().filter(at).cloned().map(unit)),
+                _ => units.extend(places.iter().filter(may_act_at).cloned().map(unit)),
             }
         }
         // More of what is known is a correction of that.

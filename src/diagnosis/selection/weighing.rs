@@ -259,8 +259,8 @@ fn nearer(left: f64, errors: &[f64]) -> Option<usize> {
 /// chosen; what contains the first and predicts the same, or has a parameter that the data do not know, is the first by another
 /// name. Logarithms of densities count in units of `unit`.
 fn probabilities_of(all: &[Candidate], unit: f64) -> Vec<f64> {
-    let of = |c: &Candidate| c.densities.iter().map(|density| density / unit).collect();
-    let densities: Vec<Vec<f64>> = all.iter().map(of).collect();
+    let in_units = |c: &Candidate| c.densities.iter().map(|density| density / unit).collect();
+    let densities: Vec<Vec<f64>> = all.iter().map(in_units).collect();
     let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::posing(&c.fit);
     let mut list = probabilities(&densities, &all.iter().map(prior).collect::<Vec<f64>>());
     let Some(first) = all.first() else { return list };

@@ -86,7 +86,7 @@ mod tests {
         let matrices = structure.matrices().unwrap();
         let squares = matrices.stiffness.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
         let (first, last) = (squares[0].sqrt(), squares[2].sqrt());
-        let one = |dof: usize, quantity, amplitudes: [f64; 3]| ChannelFit {
+        let channel_fit = |dof: usize, quantity, amplitudes: [f64; 3]| ChannelFit {
             channel: Channel { quantity, dof, label: format!("{}", dof + 1) },
             offset: 0.0,
             slope: 0.0,
@@ -95,8 +95,8 @@ mod tests {
             noise: 0.0,
         };
         let run = |omega: f64| {
-            let mut channels = vec![one(2, Quantity::Force, [1.0, 0.0, 0.0])];
-            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, [1e-3, 1e-6, 1e-5])));
+            let mut channels = vec![channel_fit(2, Quantity::Force, [1.0, 0.0, 0.0])];
+            channels.extend((0..3).map(|d| channel_fit(d, Quantity::Displacement, [1e-3, 1e-6, 1e-5])));
             let fit = HarmonicFit { omega, omega_deviation: 0.0, channels };
             Run::from_harmonics(format!("{omega}"), None, true, fit, &[])
         };
@@ -109,10 +109,10 @@ mod tests {
         let stated = ReferenceModel::new(predictor, &data, &control, &|_| {}).unwrap();
         let updating = Updating::all(&structure, &sources, &data);
         let reference = stated.doubting_harmonics().updated(&updating, &[], &Vec::new()).unwrap();
-        let of = |errors: fn(&Data, &Linearisation, &[RunPrediction]) -> Vec<Vec<Vec<f64>>>| {
+        let errors_by = |errors: fn(&Data, &Linearisation, &[RunPrediction]) -> Vec<Vec<Vec<f64>>>| {
             errors(&data, &reference.linearisation, &reference.predictions)
         };
-        let (second_order, lost) = (of(linearisation_error), of(unpredictable));
+        let (second_order, lost) = (errors_by(linearisation_error), errors_by(unpredictable));
         for c in 0..3 {
             assert!(second_order.iter().chain(&lost).all(|run| run[c][0] == 0.0));
             assert!((lost[0][c][2] - 1e-5).abs() < 1e-12 && (second_order[0][c][2] - 1e-5).abs() < 1e-12, "{lost:?}");

@@ -120,7 +120,7 @@ mod tests {
         let known = [Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[0.5])];
         let (stated, truth) = (chain(1.0), ForwardModel::new(&chain(1.05), &known).unwrap());
         let force = [c64::new(1.0, 0.0), c64::new(0.2, 0.1)];
-        let one = |name: usize, quantity, dof: usize, amplitudes: [c64; 2]| ChannelFit {
+        let channel_fit = |name: usize, quantity, dof: usize, amplitudes: [c64; 2]| ChannelFit {
             channel: Channel { quantity, dof, label: format!("{}", name + 1) },
             offset: 0.0,
             slope: 0.0,
@@ -132,9 +132,9 @@ mod tests {
             let forces = vec![HarmonicForce { dof: 2, mean: 0.0, harmonics: force.to_vec() }];
             let excitation = Excitation { omega, forces };
             let response = truth.at(omega).respond(&known, &excitation, &FINAL, None, &Control::unattended()).unwrap();
-            let mut channels = vec![one(2, Quantity::Force, 2, force)];
+            let mut channels = vec![channel_fit(2, Quantity::Force, 2, force)];
             let motion = |d: usize| [1, 2].map(|h| response.amplitude(d, h));
-            channels.extend((0..3).map(|d| one(d, Quantity::Displacement, d, motion(d))));
+            channels.extend((0..3).map(|d| channel_fit(d, Quantity::Displacement, d, motion(d))));
             Run::from_harmonics(
                 format!("{omega}"),
                 None,

@@ -57,11 +57,11 @@ impl Linearisation {
         let Some(common) = self.at_motion.get(r).or_else(|| self.common.get(r)).filter(|_| free) else {
             return [Vec::new(), Vec::new()];
         };
-        let of = |(k, slope): (usize, &Vec<Vec<c64>>)| {
+        let scaled_slope = |(k, slope): (usize, &Vec<Vec<c64>>)| {
             slope.iter().map(|channel| channel[h - 1] * self.updating.prior(k)).collect()
         };
         let column = |k: usize| (0..self.amplitudes[r].len()).map(|c| self.own(r, k, c, h)).collect();
-        [common.iter().enumerate().map(of).collect(), (0..OWN).map(column).collect()]
+        [common.iter().enumerate().map(scaled_slope).collect(), (0..OWN).map(column).collect()]
     }
 
     /// Own parameters of run `r` that are in the model already, standardised.
@@ -189,14 +189,14 @@ pub(crate) const LEAST_KNOWN: f64 = 0.5;
 /// they are `amplitudes`.
 pub(crate) fn of_channel(parameter: &UpdatingParameter, run: &RunData, amplitudes: &[Vec<c64>]) -> Vec<Vec<c64>> {
     let channel = |(channel, amplitudes): (&ChannelData, &Vec<c64>)| {
-        let at = |(i, y): (usize, &c64)| match parameter {
+        let derivative_at_harmonic = |(i, y): (usize, &c64)| match parameter {
             UpdatingParameter::Gain(name) if *name == channel.name => *y,
             UpdatingParameter::Delay(name) if *name == channel.name => {
                 *y * c64::new(0.0, -((i + 1) as f64) * run.omega)
             }
             _ => c64::new(0.0, 0.0),
         };
-        amplitudes.iter().enumerate().map(at).collect()
+        amplitudes.iter().enumerate().map(derivative_at_harmonic).collect()
     };
     run.responses.iter().zip(amplitudes).map(channel).collect()
 }
@@ -207,11 +207,11 @@ const PREDICTED: f64 = 0.3;
 
 /// Amplitudes that gains multiply: predicted, but for fundamentals whose prediction is far off.
 pub(crate) fn amplitudes(run: &RunData, predicted: &[Vec<c64>]) -> Vec<Vec<c64>> {
-    let of = |(i, (y, model)): (usize, (&c64, &c64))| {
+    let amplitude_of_harmonic = |(i, (y, model)): (usize, (&c64, &c64))| {
         if i > 0 || (y - model).norm() < PREDICTED * y.norm() { *model } else { *y }
     };
     let channel = |(channel, predicted): (&ChannelData, &Vec<c64>)| {
-        channel.measured.iter().zip(predicted).enumerate().map(of).collect()
+        channel.measured.iter().zip(predicted).enumerate().map(amplitude_of_harmonic).collect()
     };
     run.responses.iter().zip(predicted).map(channel).collect()
 }

@@ -291,9 +291,9 @@ impl Updating {
         match &self.parameters[k] {
             UpdatingParameter::Structure(part) => vec![(unknown(*part), 1.0)],
             UpdatingParameter::Known(j) => {
-                let of =
+                let unknown_with_factor =
                     |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);
-                known[*j].effect.scaled().iter().map(of).collect()
+                known[*j].effect.scaled().iter().map(unknown_with_factor).collect()
             }
             UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
             UpdatingParameter::ForceGain(name) => {

@@ -76,13 +76,13 @@ impl Updating {
             None => 0.0,
         };
         let along = |list: &Triplets| list.iter().map(|(i, j, v)| weight(*i) * weight(*j) * v).sum::<f64>();
-        let of = |parameter: &UpdatingParameter| match parameter {
+        let share_of_parameter = |parameter: &UpdatingParameter| match parameter {
             UpdatingParameter::Structure(part) => structure.share(*part).map_or(0.0, |share| {
                 along(if source.effect.adds_to(Constant::Mass) { &share.mass } else { &share.stiffness })
             }),
             _ => 0.0,
         };
-        Some(self.parameters.iter().map(of).collect())
+        Some(self.parameters.iter().map(share_of_parameter).collect())
     }
 }
 

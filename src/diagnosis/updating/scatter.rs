@@ -141,19 +141,19 @@ fn of_runs(reference: &ReferenceModel, rows: Vec<f64>, u: &[f64]) -> Vec<RunScat
     let left = reference.noise.updating.left(rows, u);
     let scales = reference.linearisation.updating.scales;
     let mut at = 0;
-    let of = |(r, noise): (usize, &crate::diagnosis::residual::whitening::Whitening)| {
+    let scatter_of_run = |(r, noise): (usize, &crate::diagnosis::residual::whitening::Whitening)| {
         let estimate = noise.nuisance().estimate(&left[at..at + noise.len()]);
         at += noise.len();
-        let one = |k: usize, scale: f64| {
+        let scaled_estimate = |k: usize, scale: f64| {
             let (value, variance) = (estimate.values.get(k)?, estimate.variances.get(k)?);
             Some(Estimated { value: scale * value, deviation: scale * variance.sqrt() })
         };
         Some(RunScatter {
             run: reference.data.runs[r].index,
-            frequency: one(0, 0.5 * scales.shift)?,
-            amplitude: one(1, scales.response)?,
-            phase: one(2, scales.response)?,
+            frequency: scaled_estimate(0, 0.5 * scales.shift)?,
+            amplitude: scaled_estimate(1, scales.response)?,
+            phase: scaled_estimate(2, scales.response)?,
         })
     };
-    reference.noise.runs.iter().enumerate().filter_map(of).collect()
+    reference.noise.runs.iter().enumerate().filter_map(scatter_of_run).collect()
 }

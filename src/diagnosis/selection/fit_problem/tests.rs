@@ -73,14 +73,14 @@ impl Values {
 
     /// Effects on the structure with errors of channels between them, which have no unknowns of their own.
     fn effects(&self) -> Vec<Source> {
-        let on = |effect, name: &str, value| Source::known(effect, Place::Channel(name.into()), &[value]);
+        let channel_error = |effect, name: &str, value| Source::known(effect, Place::Channel(name.into()), &[value]);
         vec![
             source(Effect::Quadratic, &[8], &[self.drag]),
-            on(Effect::Delay, "acc@11", 1e-3),
+            channel_error(Effect::Delay, "acc@11", 1e-3),
             source(Effect::Viscous, &[4, 6], &[self.dashpot]),
-            on(Effect::Gain, "disp@3", 1.2),
-            on(Effect::Delay, "force@11", -2e-3),
-            on(Effect::Gain, "force@5", 0.9),
+            channel_error(Effect::Gain, "disp@3", 1.2),
+            channel_error(Effect::Delay, "force@11", -2e-3),
+            channel_error(Effect::Gain, "force@5", 0.9),
         ]
     }
 

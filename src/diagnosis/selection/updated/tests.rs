@@ -17,14 +17,14 @@ fn runs(held: Part, known: &[Source]) -> Vec<Run> {
     let structure = cantilever(4).with_factors(&[(held, 0.2)]);
     let omegas = structure.modes().unwrap().omega;
     let model = ForwardModel::new(&structure, known).unwrap();
-    let one = |omega: f64| {
+    let run_at_frequency = |omega: f64| {
         let excitation = Excitation::sine(omega, 6, c64::new(1.0, 0.0));
         let response = model.at(omega).respond(known, &excitation, &FINAL, None, &Control::unattended()).unwrap();
         let motion: Vec<c64> = (0..8).map(|dof| response.amplitude(dof, 1)).collect();
         displacements_run(omega, (6, 1.0), &motion, 0.0)
     };
     let around = |omega: &f64| [0.9, 0.97, 1.03, 1.1].map(|factor| factor * omega);
-    with_noise(&omegas[..2].iter().flat_map(around).map(one).collect::<Vec<_>>(), 1e-3, 7)
+    with_noise(&omegas[..2].iter().flat_map(around).map(run_at_frequency).collect::<Vec<_>>(), 1e-3, 7)
 }
 
 /// Corrections alone find that it is the clamp that gives way, not the elements beside it.
