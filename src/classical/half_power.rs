@@ -63,8 +63,8 @@ fn evened(omega: &[f64], receptance: &[c64]) -> Option<HalfPower> {
     let peak = (0..inverse.len()).min_by(|&i, &j| inverse[i].total_cmp(&inverse[j]))?;
     let over = |lines: std::ops::Range<usize>, keep: &dyn Fn(f64) -> bool| {
         let kept: Vec<usize> = lines.filter(|&i| keep(inverse[peak] / inverse[i])).collect();
-        let at = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
-        (kept.len() >= MANY).then(|| Curve::fitted(&at(&square), &at(&inverse)))?
+        let at_kept_lines = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
+        (kept.len() >= MANY).then(|| Curve::fitted(&at_kept_lines(&square), &at_kept_lines(&inverse)))?
     };
     let (vertex, least) = over(0..inverse.len(), &|power| power > TOP)?.minimum()?;
     let middle = square.partition_point(|x| *x < vertex);

@@ -33,7 +33,7 @@ pub(super) fn isolated(responses: &FrequencyResponses, modes: &[ExtractedMode], 
     let weights = weights(responses, &modes[r], pole.im);
     let own =
         filled_complex(weights.nrows(), weights.ncols(), |i, j| modes[r].residues[(i, j)].conj() * weights[(i, j)]);
-    let laid = |of: &dyn Fn((usize, usize)) -> c64| pairs(&own).map(|p| own[p] * of(p)).sum::<c64>();
+    let laid = |value: &dyn Fn((usize, usize)) -> c64| pairs(&own).map(|p| own[p] * value(p)).sum::<c64>();
     let total = laid(&|p| modes[r].residues[p]);
     // What the other modes add to the sum is that of their residues over the distance from their poles.
     let others: Vec<(c64, c64, c64)> = modes
@@ -42,13 +42,13 @@ pub(super) fn isolated(responses: &FrequencyResponses, modes: &[ExtractedMode], 
         .filter(|(p, _)| *p != r)
         .map(|(_, m)| (m.pole, laid(&|p| m.residues[p]), laid(&|p| m.residues[p].conj())))
         .collect();
-    let at = |k: usize| {
+    let response_at_line = |k: usize| {
         let s = c64::new(0.0, responses.omega[k]);
         let rest: c64 =
             others.iter().map(|(pole, direct, other)| direct / (s - pole) + other / (s - pole.conj())).sum();
         (laid(&|p| responses.values[k][p]) - rest) / total
     };
-    let response = lines.clone().map(at).collect();
+    let response = lines.clone().map(response_at_line).collect();
     Isolated { pole, omega: responses.omega[lines].to_vec(), response }
 }
 

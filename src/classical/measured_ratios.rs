@@ -84,12 +84,12 @@ impl Isolated {
         lines: &[usize],
         method: &dyn Fn(&[f64], &[c64]) -> Option<(f64, f64)>,
     ) -> Option<MeasuredRatio> {
-        let on = |kept: &[usize]| {
+        let estimate = |kept: &[usize]| {
             let (w, h): (Vec<f64>, Vec<c64>) = kept.iter().map(|&k| (self.omega[k], self.response[k])).unzip();
             method(&w, &h)
         };
-        let (omega, ratio) = on(lines)?;
-        let parts: Vec<f64> = without_each_group(lines).iter().filter_map(|kept| on(kept)).map(|part| part.1).collect();
+        let (omega, ratio) = estimate(lines)?;
+        let parts: Vec<f64> = without_each_group(lines).iter().filter_map(|kept| Some(estimate(kept)?.1)).collect();
         Some(MeasuredRatio { omega, ratio, deviation: jackknife(&parts) })
     }
 }

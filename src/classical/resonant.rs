@@ -98,9 +98,9 @@ pub(crate) fn expanded(model: &Modes, sensors: &[usize], values: &[c64], r: usiz
     let (problem, picked) = basis(model, sensors, r)?;
     let re = problem.solve(&values.iter().map(|v| v.re).collect::<Vec<_>>())?.x;
     let im = problem.solve(&values.iter().map(|v| v.im).collect::<Vec<_>>())?.x;
-    let at =
+    let motion_of_dof =
         |i: usize| picked.iter().enumerate().map(|(k, &j)| c64::new(re[k], im[k]) * model.shapes[(i, j)]).sum::<c64>();
-    Ok((0..n).map(at).collect())
+    Ok((0..n).map(motion_of_dof).collect())
 }
 
 /// Whether mode `r` moves any of the sensors noticeably.

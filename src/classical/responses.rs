@@ -44,15 +44,15 @@ impl FrequencyResponses {
         let mut drives: Vec<usize> = lines.iter().map(|line| line.drive).collect();
         drives.sort_unstable();
         drives.dedup();
-        let of = |drive: usize| lines.iter().filter(move |line| line.drive == drive);
-        let main = drives.iter().copied().max_by_key(|&drive| of(drive).count())?;
-        let at = |drive: usize, omega: f64| of(drive).find(|l| (l.omega - omega).abs() <= SAME_LINE * omega);
-        let mut omega: Vec<f64> = of(main).map(|line| line.omega).collect();
+        let lines_of = |drive: usize| lines.iter().filter(move |line| line.drive == drive);
+        let main = drives.iter().copied().max_by_key(|&drive| lines_of(drive).count())?;
+        let line_at = |drive: usize, omega: f64| lines_of(drive).find(|l| (l.omega - omega).abs() <= SAME_LINE * omega);
+        let mut omega: Vec<f64> = lines_of(main).map(|line| line.omega).collect();
         omega.sort_by(f64::total_cmp);
         omega.dedup_by(|a, b| (*a - *b).abs() <= SAME_LINE * *b);
-        drives.retain(|&drive| omega.iter().all(|&w| at(drive, w).is_some()));
+        drives.retain(|&drive| omega.iter().all(|&w| line_at(drive, w).is_some()));
         let value = |w: f64, sensor: usize, drive: usize| {
-            at(drive, w).and_then(|l| l.motion.iter().find(|(d, _)| *d == sensor)).map_or(c64::new(0.0, 0.0), |m| m.1)
+            line_at(drive, w).and_then(|l| l.motion.iter().find(|(d, _)| *d == sensor)).map_or(0.0.into(), |m| m.1)
         };
         let matrix = |&w: &f64| filled_complex(sensors.len(), drives.len(), |i, j| value(w, sensors[i], drives[j]));
         let values = omega.iter().map(matrix).collect();

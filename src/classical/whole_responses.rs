@@ -76,10 +76,10 @@ fn common(forces: &[(usize, Vec<&WholeFunction>)]) -> Vec<usize> {
 }
 
 fn matrix(omega: &[f64], sensors: &[usize], forces: &Pairs<'_>) -> FrequencyResponses {
-    let of = |list: &Vec<&WholeFunction>| -> Vec<usize> {
+    let places_of_sensors = |list: &Vec<&WholeFunction>| -> Vec<usize> {
         sensors.iter().filter_map(|dof| list.iter().position(|one| one.response == *dof)).collect()
     };
-    let places: Vec<Vec<usize>> = forces.iter().map(|(_, list)| of(list)).collect();
+    let places: Vec<Vec<usize>> = forces.iter().map(|(_, list)| places_of_sensors(list)).collect();
     let function = |i: usize, j: usize| forces[j].1[places[j][i]];
     let (rows, columns) = (sensors.len(), forces.len());
     let lines = 0..omega.len();
