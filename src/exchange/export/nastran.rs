@@ -74,10 +74,10 @@ fn damper(id: usize, c: f64, (grid, component): Component, second: Option<Compon
 
 /// `CBUSH` to the ground in the basic system, and its `PBUSH` with one coefficient.
 fn bush(id: usize, c: f64, (grid, component): Component) -> String {
-    let coefficient = |of: u8| if of == component { large(c, 'E') } else { " ".repeat(16) };
-    let of = |range: std::ops::RangeInclusive<u8>| range.map(coefficient).collect::<String>();
+    let coefficient = |number: u8| if number == component { large(c, 'E') } else { " ".repeat(16) };
+    let fields = |range: std::ops::RangeInclusive<u8>| range.map(coefficient).collect::<String>();
     let system = format!("{:<8}{id:>16}{id:>16}{grid:>16}\n{:<56}{:>16}\n", "CBUSH*", "*", 0);
-    let [first, second] = [of(1..=2), of(3..=6)];
+    let [first, second] = [fields(1..=2), fields(3..=6)];
     system + &format!("{:<8}{id:>16}{:>16}{}\n{:<8}{}\n", "PBUSH*", "B", first.trim_end(), "*", second.trim_end())
 }
 

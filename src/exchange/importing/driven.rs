@@ -63,12 +63,12 @@ fn force_without_place(mapping: &Proposal) -> Option<usize> {
 /// The only motion over which the power is positive in all records, and the number of records with a clear one.
 fn driven(powers: &[Vec<(String, f64)>]) -> Option<(&str, usize)> {
     let names = &powers.first()?[..];
-    let of = |name: &str| -> Vec<f64> {
+    let powers_of_motion = |name: &str| -> Vec<f64> {
         powers.iter().filter_map(|record| record.iter().find(|(own, _)| own == name).map(|(_, power)| *power)).collect()
     };
     let mut takes_in = names
         .iter()
-        .map(|(name, _)| (name.as_str(), of(name)))
+        .map(|(name, _)| (name.as_str(), powers_of_motion(name)))
         .filter(|(_, powers)| powers.iter().all(|power| *power > -CLEAR));
     let (motion, own) = takes_in.next()?;
     let clear = own.iter().filter(|power| **power > CLEAR).count();

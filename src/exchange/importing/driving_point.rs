@@ -80,9 +80,9 @@ fn density(functions: &[Vec<[f64; 2]>], noise: &[f64]) -> Density {
         if noise[k] > 0.0 { (re * re + im * im) / (2.0 * noise[k].powi(2)) } else { 0.0 }
     };
     let all = |line: usize| (0..functions.len()).map(|k| above(k, line)).sum::<f64>().powi(2);
-    let one = |line: usize| (0..functions.len()).any(|k| above(k, line) > ABOVE_NOISE);
+    let any_stands_out = |line: usize| (0..functions.len()).any(|k| above(k, line) > ABOVE_NOISE);
     let lines = 0..functions[0].len();
-    Density { information: lines.clone().map(all).collect(), stands_out: lines.map(one).collect() }
+    Density { information: lines.clone().map(all).collect(), stands_out: lines.map(any_stands_out).collect() }
 }
 
 /// Sign of a part of a function over the lines of a resonance, where it is clear.

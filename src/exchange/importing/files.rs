@@ -168,15 +168,15 @@ mod tests {
     #[test]
     fn files_of_a_folder_that_are_no_measurements_are_told() -> std::io::Result<()> {
         let folder = tempfile::tempdir()?;
-        let of = |name: &str, text: &str| {
+        let kept = |name: &str, text: &str| {
             let path = folder.path().join(name);
             std::fs::write(&path, text).map(|()| may_be_measurement(&path))
         };
-        assert!(of("run.TDMS", "TDSm")? && of("run.txt", "t F\n0.1 2\n")? && of("names.txt", "Force\nAcc 1\n")?);
+        assert!(kept("run.TDMS", "TDSm")? && kept("run.txt", "t F\n0.1 2\n")? && kept("names.txt", "Force\nAcc 1\n")?);
         assert!(
-            !of("notes.txt", "Sensor 3 is loose; ask again\n")?
-                && !of("run.tdms_index", "TDSh")?
-                && !of("rig.JPG", "")?
+            !kept("notes.txt", "Sensor 3 is loose; ask again\n")?
+                && !kept("run.tdms_index", "TDSh")?
+                && !kept("rig.JPG", "")?
         );
         Ok(())
     }

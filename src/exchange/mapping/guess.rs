@@ -196,9 +196,9 @@ mod tests {
             (Some(Quantity::Force), Some(Quantity::Displacement), Some(Quantity::Acceleration))
         );
         let names = ["uval", "yval[1]", "yval[2]", "u", "x"];
-        let of = |name: &str| of_identification(name, &names);
-        assert_eq!((of("uval"), of("yval[2]")), (Some(Quantity::Force), Some(Quantity::Displacement)));
-        assert_eq!((of("u"), of("x")), (None, None));
+        let quantity = |name: &str| of_identification(name, &names);
+        assert_eq!((quantity("uval"), quantity("yval[2]")), (Some(Quantity::Force), Some(Quantity::Displacement)));
+        assert_eq!((quantity("u"), quantity("x")), (None, None));
         assert_eq!((symbol("ax"), symbol("az2"), symbol("max")), (Some(Quantity::Acceleration), None, None));
         assert!(
             in_g("gFz")

@@ -256,11 +256,11 @@ fn table(channel: &Channel, set: Option<String>, quantity: Quantity, label: Stri
 /// What is proposed for a channel: `moved` where another channel of the file moves, `recorder` where the numbers are shares of
 /// full scale.
 fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) -> Result<Draft<'_>, String> {
-    let of =
+    let new_draft =
         |table: ChannelTable, placed: bool| Draft { channel, table, placed, calibrated: true, assumed: Vec::new() };
     if let Ok((quantity, label)) = parse_name(&channel.name) {
         let unit = LabUnit::from_name(&channel.unit);
-        let mut draft = of(table(channel, set, quantity, label), true);
+        let mut draft = new_draft(table(channel, set, quantity, label), true);
         draft.convert(unit, quantity, &channel.unit);
         return Ok(draft);
     }
@@ -293,7 +293,7 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
         let assumed = vec![format!("nothing says what it measures: factor is 1 m a {one}, fill in its own")];
         return Ok(Draft { channel, table, placed: place.is_some(), calibrated: false, assumed });
     };
-    let mut draft = of(ChannelTable { sign, ..table(channel, set, quantity, label) }, place.is_some());
+    let mut draft = new_draft(ChannelTable { sign, ..table(channel, set, quantity, label) }, place.is_some());
     if let Some(scale) = channel.attribute("scale beside").and_then(|scale| scale.parse().ok()) {
         draft.table.factor = Some(scale);
         draft.assumed.push(format!("its whole numbers are taken times the scale beside them, {scale}"));
