@@ -96,11 +96,11 @@ pub fn sensitivities(
         check(*unknown, sources, run.len(), excitation.forces.len())?;
     }
     let run = run.fitting(sources);
-    let at = |u: &[f64], order: usize| at_order(&run, sources, excitation, (u, order), dofs, unknowns);
-    let mut fine = at(&response.unknowns, response.order())?;
+    let derivatives_at = |u: &[f64], order: usize| at_order(&run, sources, excitation, (u, order), dofs, unknowns);
+    let mut fine = derivatives_at(&response.unknowns, response.order())?;
     if let Some((order, coarse)) = &response.coarse {
         let order = *order;
-        let below = at(coarse, order)?;
+        let below = derivatives_at(coarse, order)?;
         let weight = richardson(order, response.order());
         for (fine, below) in fine.iter_mut().zip(&below) {
             for h in 0..order {

@@ -246,8 +246,8 @@ mod tests {
         let whole = BeamParameters { supports: Supports::FreeFree, ..beam.clone() }.build(&[]).unwrap();
         let free: Vec<usize> = (0..whole.len()).filter(|i| !held.contains(i)).collect();
         let SystemMatrices { mass, stiffness } = whole.matrices().unwrap();
-        let of = |own: &Mat<f64>| Mat::from_fn(free.len(), free.len(), |i, j| own[(free[i], free[j])]);
-        let (mass, mut stiffness) = (of(mass), of(stiffness));
+        let free_part = |own: &Mat<f64>| Mat::from_fn(free.len(), free.len(), |i, j| own[(free[i], free[j])]);
+        let (mass, mut stiffness) = (free_part(mass), free_part(stiffness));
         for (dof, spring) in springs {
             let row = free.iter().position(|i| i == dof).unwrap();
             stiffness[(row, row)] += spring;

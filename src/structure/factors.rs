@@ -176,13 +176,13 @@ impl Structure {
         self.origin.damping_of_modes.clear();
         let (false, Some(matrices)) = (all.is_empty(), &self.matrices) else { return };
         let Ok(modes) = self.modes() else { return };
-        let of = |(mode, factor): (usize, f64)| DampingOfMode {
+        let corrected = |(mode, factor): (usize, f64)| DampingOfMode {
             mode,
             factor,
             pattern: modal_pattern(&matrices.mass, modes.shapes.col_as_slice(mode)),
             square: modes.omega[mode].powi(2),
         };
-        self.origin.damping_of_modes = all.into_iter().filter(|(mode, _)| *mode < modes.len()).map(of).collect();
+        self.origin.damping_of_modes = all.into_iter().filter(|(mode, _)| *mode < modes.len()).map(corrected).collect();
     }
 
     fn scale_elements(&mut self, part: Part, factor: f64) {

@@ -61,7 +61,7 @@ impl RunModel {
 
 /// Whether two responses have the same fundamental.
 fn is_same(a: &Response, b: &Response) -> bool {
-    let largest = |of: &dyn Fn(usize) -> f64| (0..b.mean.len()).map(of).fold(0.0, f64::max);
+    let largest = |size: &dyn Fn(usize) -> f64| (0..b.mean.len()).map(size).fold(0.0, f64::max);
     let difference = largest(&|dof| (a.amplitude(dof, 1) - b.amplitude(dof, 1)).norm());
     difference <= SAME * largest(&|dof| b.amplitude(dof, 1).norm())
 }

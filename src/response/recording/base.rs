@@ -34,13 +34,13 @@ pub(super) struct AtSteps {
 impl BaseMotion<'_> {
     /// At `count` steps of `step` s.
     pub(super) fn at_steps(&self, count: usize, step: f64) -> AtSteps {
-        let at = |n: usize| {
+        let acceleration_at_step = |n: usize| {
             let place = n as f64 * step / self.step_s;
             let (k, share) = (place.floor() as usize, place.fract());
             let sample = |k: usize| self.acceleration.get(k).copied().unwrap_or(0.0);
             (1.0 - share) * sample(k) + share * sample(k + 1)
         };
-        let a: Vec<f64> = (0..count).map(at).collect();
+        let a: Vec<f64> = (0..count).map(acceleration_at_step).collect();
         let (mut v, mut d) = (vec![0.0; count], vec![0.0; count]);
         for n in 1..count {
             v[n] = v[n - 1] + 0.5 * step * (a[n - 1] + a[n]);

@@ -68,7 +68,7 @@ fn mode_damping(setup: &TransientSetup, reduction: &Reduction, r: usize) -> f64 
 /// Derivatives of the damping of the whole structure by the logarithms of the factors on that of the kept modes.
 fn by_mode_damping(reduction: &Reduction, whole: &Mat<f64>) -> Vec<(TransientParameter, Matrices)> {
     let size = reduction.omega.len();
-    let of = |r: usize| {
+    let damping_of_mode = |r: usize| {
         let mut by = Matrices::zeros(size);
         for s in 0..size {
             by.damping[(r, s)] += 0.5 * whole[(r, s)];
@@ -76,7 +76,7 @@ fn by_mode_damping(reduction: &Reduction, whole: &Mat<f64>) -> Vec<(TransientPar
         }
         (TransientParameter::ModeDamping(r), by)
     };
-    (0..reduction.kept).map(of).collect()
+    (0..reduction.kept).map(damping_of_mode).collect()
 }
 
 /// Reduced matrices with all linear sources, and their derivatives by every parameter of the linear part.

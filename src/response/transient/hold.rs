@@ -53,11 +53,11 @@ fn spline(force: &[f64]) -> Vec<Polynomial> {
         filter(&mut c, pole);
     }
     let pieces = pieces();
-    let at = |n: usize| {
+    let piece_after_sample = |n: usize| {
         let around = &c[n + BEYOND - 2..n + BEYOND + 4];
         pieces.map(|row| row.iter().zip(around).map(|(a, c)| a * c).sum())
     };
-    (0..=last).map(at).collect()
+    (0..=last).map(piece_after_sample).collect()
 }
 
 /// Divides by `(1 - z E)(1 - z E^-1) / (1 - z)^2`, with `E` the shift by a sample: there and back.

@@ -46,8 +46,8 @@ pub(super) struct Piece<'a> {
 impl Receptance {
     pub(super) fn new(views: &[View], step: &Step) -> Self {
         let count = views.len();
-        let table = |of: &dyn Fn(&View) -> &Vec<f64>| {
-            views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, of(view)))).collect()
+        let table = |functional: &dyn Fn(&View) -> &Vec<f64>| {
+            views.iter().flat_map(|view| (0..count).map(|k| step.receptance(k, functional(view)))).collect()
         };
         Self { displacement: table(&|v| &v.displacement), velocity: table(&|v| &v.velocity) }
     }
