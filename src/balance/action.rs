@@ -340,12 +340,13 @@ mod tests {
             add_energy_gradient(&source, &structure, field, 1.0, &mut gradient);
             let step = c64::new(0.6, -0.8) * 1e-6;
             for (i, k) in [(0, 0), (1, 1)] {
-                let at = |sign: f64| {
+                let energy_beside = |sign: f64| {
                     let mut moved = x.clone();
                     moved[(i, k)] += step * sign;
                     energy(&source, &structure, Field { omega: 3.0, numbers: &[1, 3], x: &moved })
                 };
-                let (difference, expected) = ((at(1.0) - at(-1.0)) / 2.0, (gradient[(i, k)].conj() * step).re);
+                let (difference, expected) =
+                    ((energy_beside(1.0) - energy_beside(-1.0)) / 2.0, (gradient[(i, k)].conj() * step).re);
                 assert!((difference - expected).abs() < 1e-12, "{source:?}");
             }
         }

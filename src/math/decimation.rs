@@ -36,8 +36,8 @@ pub(crate) fn kept(count: usize, factor: usize) -> impl Iterator<Item = usize> +
 pub(crate) fn decimated(signal: &[f64], factor: usize) -> Vec<f64> {
     let half = HALF * factor;
     let weights = low_pass(half, CUT / factor as f64);
-    let at = |n: usize| weights.iter().zip(&signal[n - half..=n + half]).map(|(w, y)| w * y).sum();
-    kept(signal.len(), factor).map(at).collect()
+    let filtered_sample = |n: usize| weights.iter().zip(&signal[n - half..=n + half]).map(|(w, y)| w * y).sum();
+    kept(signal.len(), factor).map(filtered_sample).collect()
 }
 
 /// Modified Bessel function of the first kind, order zero.

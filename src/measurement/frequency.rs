@@ -145,9 +145,9 @@ pub(super) fn coarse(record: &Record, harmonics: usize) -> Result<f64, FitError>
 fn spectra(record: &Record, channels: &[usize]) -> Vec<Spectrum> {
     let (time, samples) = (record.time(), |c: usize| record.samples(c));
     if record.len() > LONG {
-        let of =
+        let mean_spectrum =
             |c: usize| Spectrum::mean(parts(record.len()).map(|part| spectrum(&time[part.clone()], &samples(c)[part])));
-        let means: Vec<Spectrum> = channels.iter().filter_map(|&c| of(c)).collect();
+        let means: Vec<Spectrum> = channels.iter().filter_map(|&c| mean_spectrum(c)).collect();
         let slow = |mean: &Spectrum| {
             mean.highest_peak().is_some_and(|peak| peak.frequency_hz < FEW_PERIODS * mean.resolution_hz)
         };

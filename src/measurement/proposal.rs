@@ -73,18 +73,18 @@ pub(super) fn release(record: &Record) -> Option<f64> {
 }
 
 /// Sample from which on nothing drives the motion, which was at rest or even before; 0 where neither is seen.
-fn released(record: &Record, motion: &[f64], at: impl Fn(usize) -> usize) -> usize {
+fn released(record: &Record, motion: &[f64], first_sample: impl Fn(usize) -> usize) -> usize {
     let largest = motion.iter().copied().fold(0.0, f64::max);
     let large = motion.iter().rposition(|m| *m > EVEN * largest).unwrap_or(0);
     let peak = motion.iter().position(|m| *m >= largest).unwrap_or(0);
     if peak > 0 && motion[..peak.div_ceil(2)].iter().all(|m| *m < QUIET * largest) {
         // A displacement is let go where it is largest; an acceleration is largest while it is struck.
-        let near = at(peak - 1)..at((peak + 2).min(BLOCKS));
+        let near = first_sample(peak - 1)..first_sample((peak + 2).min(BLOCKS));
         let size = |n: usize| displacements(record).map(|y| y[n].abs()).fold(0.0, f64::max);
         let top = near.clone().max_by(|&a, &b| size(a).total_cmp(&size(b)));
         return top.filter(|&n| size(n) > 0.0).unwrap_or(near.end);
     }
-    if is_even(&motion[..large], largest) { at(large + 1) } else { 0 }
+    if is_even(&motion[..large], largest) { first_sample(large + 1) } else { 0 }
 }
 
 /// Whether a drive holds these blocks: none falls far below the `largest`, and they fall no more than chance has it.
@@ -100,14 +100,14 @@ fn displacements(record: &Record) -> impl Iterator<Item = &[f64]> {
 }
 
 /// The force ends before the record does.
-fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], at: impl Fn(usize) -> f64) -> Proposal {
-    let (duration, end) = (record.duration(), at(last + 1));
+fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], time: impl Fn(usize) -> f64) -> Proposal {
+    let (duration, end) = (record.duration(), time(last + 1));
     let contact = (last + 1 - first) as f64 / BLOCKS as f64;
     if contact < HAMMER {
         let reason = format!(
             "the force acts for less than {:.3} s of {duration:.3} s, from {:.3} s on, as a hammer's does",
             contact * duration,
-            at(first)
+            time(first)
         );
         return Proposal { kind: Kind::Transient, part: Part::default(), reason };
     }
@@ -121,7 +121,7 @@ fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], at: i
 }
 
 /// No force: the motion dies away, or is driven by what was not measured.
-fn free(record: &Record, motion: &[f64], at: impl Fn(usize) -> f64) -> Proposal {
+fn free(record: &Record, motion: &[f64], time: impl Fn(usize) -> f64) -> Proposal {
     let last = motion.len().saturating_sub(3);
     let end = motion[last..].iter().sum::<f64>() / (motion.len() - last).max(1) as f64;
     // The decay begins where the motion leaves the level of its largest blocks for good.
@@ -130,11 +130,11 @@ fn free(record: &Record, motion: &[f64], at: impl Fn(usize) -> f64) -> Proposal 
     if most > 0.0 && end < DIES * most {
         // Within that block what drove it may still act: the next one is free.
         let start = if start <= 1 { start } else { start + 1 };
-        let from = if start <= 1 { None } else { Some(at(start)) };
+        let from = if start <= 1 { None } else { Some(time(start)) };
         let reason = format!(
             "no force is measured, and the motion falls to {:.1} % of its largest from {:.3} s on",
             100.0 * end / most,
-            at(start)
+            time(start)
         );
         return Proposal { kind: Kind::Decay, part: Part { start_s: from, end_s: None }, reason };
     }

@@ -90,10 +90,10 @@ mod tests {
         let blow = |n: usize| if (500..506).contains(&n) { 80.0 * (PI * (n as f64 - 499.5) / 6.0).sin() } else { 0.0 };
         let waves: [&dyn Fn(usize) -> f64; 3] = [&sweep, &noise, &|n| blow(n) + 1e-3 * noise(n)];
         for (wave, offset) in waves.into_iter().zip([0.2, 0.3, 0.05]) {
-            let of = |level: f64| (0..4000).map(|n| level + wave(n)).collect::<Vec<f64>>();
-            assert_eq!(zero(&of(0.0)), 0.0);
-            assert!((zero(&of(offset)) / offset - 1.0).abs() < 0.1, "{} {offset}", zero(&of(offset)));
-            assert!(zero(&without_zero(&of(offset))).abs() < 0.01 * offset);
+            let shifted = |level: f64| (0..4000).map(|n| level + wave(n)).collect::<Vec<f64>>();
+            assert_eq!(zero(&shifted(0.0)), 0.0);
+            assert!((zero(&shifted(offset)) / offset - 1.0).abs() < 0.1, "{} {offset}", zero(&shifted(offset)));
+            assert!(zero(&without_zero(&shifted(offset))).abs() < 0.01 * offset);
         }
     }
 

@@ -162,9 +162,9 @@ mod tests {
 
     /// Density of resonances at the given lines, each of the given height.
     fn density(peaks: &[(f64, f64)]) -> Density {
-        let at =
+        let density_of_line =
             |i: usize| peaks.iter().map(|(f, height)| height / (1.0 + ((i as f64 - f) / 4.1).powi(2)).powi(2)).sum();
-        of((0..400).map(at).collect())
+        of((0..400).map(density_of_line).collect())
     }
 
     fn of(information: Vec<f64>) -> Density {
