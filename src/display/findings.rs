@@ -45,7 +45,7 @@ pub struct RunSpread {
 pub fn spread_of_runs(scatter: &Scatter) -> Option<RunSpread> {
     let shifts: Vec<_> = scatter.runs.iter().map(|r| (r.run, r.frequency)).collect();
     let n = shifts.len() as f64;
-    let mean = |of: &dyn Fn(Estimated) -> f64| shifts.iter().map(|(_, s)| of(*s).powi(2)).sum::<f64>() / n;
+    let mean = |value: &dyn Fn(Estimated) -> f64| shifts.iter().map(|(_, s)| value(*s).powi(2)).sum::<f64>() / n;
     let beyond_chance = mean(&Estimated::deviations) > 1.0 + 3.0 * (2.0 / n).sqrt();
     let (run, most) = shifts.iter().max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs()))?;
     let spread = RunSpread { shift: mean(&|s| s.value).sqrt(), run: *run, most: most.value };

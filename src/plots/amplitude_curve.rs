@@ -28,14 +28,14 @@ pub(crate) fn told(curves: &[ModeCurve]) -> Vec<&ModeCurve> {
 
 /// Both figures of every mode, the damping ratio first; each says its mode where there are several.
 pub(crate) fn figures(curves: &[&ModeCurve], palette: &Palette) -> Vec<Figure> {
-    let of = |(curve, ratio): (&&ModeCurve, bool)| {
+    let titled_figure = |(curve, ratio): (&&ModeCurve, bool)| {
         let mut figure = figure(curve, ratio, palette);
         if curves.len() > 1 {
             figure.title = format!("{}, mode near {}", figure.title, format::with_unit(curve.frequency_hz, "Hz"));
         }
         figure
     };
-    curves.iter().flat_map(|curve| [true, false].map(|ratio| (curve, ratio))).map(of).collect()
+    curves.iter().flat_map(|curve| [true, false].map(|ratio| (curve, ratio))).map(titled_figure).collect()
 }
 
 /// Damping ratio over amplitude (`ratio`), else frequency over amplitude.

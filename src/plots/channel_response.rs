@@ -73,8 +73,8 @@ impl ChannelResponse<'_> {
             let name = if self.levels.len() > 1 { String::new() } else { "measured".to_owned() };
             let own = level.runs.contains(&self.run);
             let in_level = |s: &&Sample| level.runs.contains(&s.run);
-            let points = |of: &dyn Fn(&Sample) -> Option<c64>, list: &[&Sample]| -> Vec<[f64; 2]> {
-                list.iter().filter_map(|s| Some([s.frequency, part.of(of(s)?)])).collect()
+            let points = |value: &dyn Fn(&Sample) -> Option<c64>, list: &[&Sample]| -> Vec<[f64; 2]> {
+                list.iter().filter_map(|s| Some([s.frequency, part.of(value(s)?)])).collect()
             };
             let list: Vec<&Sample> = self.samples.iter().filter(in_level).collect();
             // Where the prediction of a run does not lie on its curve, the run was on another branch.
@@ -150,8 +150,8 @@ impl ChannelResponse<'_> {
                 Part::Magnitude => Axis::new("Magnitude", &per_force(self.unit)),
                 Part::Phase => Axis::new("Phase", "°"),
             };
-            let points = |of: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
-                list.iter().filter_map(|s| Some([s.force, part.of(of(s)?)])).collect()
+            let points = |value: &dyn Fn(&Sample) -> Option<c64>| -> Vec<[f64; 2]> {
+                list.iter().filter_map(|s| Some([s.force, part.of(value(s)?)])).collect()
             };
             let trial = "with the effect on trial";
             let mut figure = Figure::new(title(part), Axis::new("Force amplitude", "N").peak(), y)

@@ -117,11 +117,11 @@ impl Shown<'_> {
     }
 
     fn force(&self, chosen: &[usize]) -> Result<Vec<Command>, String> {
-        let to = |i: usize, state: State| Ok(Command::SetSourceState { source: self.at(i)?, state });
+        let set_state = |i: usize, state: State| Ok(Command::SetSourceState { source: self.at(i)?, state });
         let sources = self.sources.iter().enumerate();
         let released = sources.filter(|(i, s)| s.state == State::Forced && !chosen.contains(i)).map(|(i, _)| i);
         let forced = chosen.iter().filter(|&&i| self.sources.get(i).is_some_and(|s| s.state != State::Forced));
-        released.map(|i| to(i, State::Candidate)).chain(forced.map(|&i| to(i, State::Forced))).collect()
+        released.map(|i| set_state(i, State::Candidate)).chain(forced.map(|&i| set_state(i, State::Forced))).collect()
     }
 }
 

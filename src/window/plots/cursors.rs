@@ -55,13 +55,13 @@ impl Cursors {
     pub(super) fn words(&self, figure: &Figure, reading: Option<&Reading<'_>>) -> Vec<String> {
         let read = |at: [f64; 2]| reading.and_then(|r| Some((&r.axis, (r.value)(at)?)));
         let line = |mark: &str, parts: Vec<String>| format!("{mark}:  {}", parts.join("   "));
-        let one = |k: usize| {
+        let cursor_words = |k: usize| {
             let at = self.at[k];
             let mut parts = vec![said(&figure.x, at[0]), said(&figure.y, at[1])];
             parts.extend(read(at).map(|(axis, value)| said(axis, value)));
             line(&(k + 1).to_string(), parts)
         };
-        let mut lines: Vec<String> = (0..self.at.len()).map(one).collect();
+        let mut lines: Vec<String> = (0..self.at.len()).map(cursor_words).collect();
         if let [a, b] = self.at[..] {
             let axes = [(&figure.x, a[0], b[0]), (&figure.y, a[1], b[1])];
             let measured = axes.into_iter().filter(|(axis, ..)| !matches!(axis.ticks, Ticks::Names(_)));

@@ -120,22 +120,22 @@ impl RuledBox<'_> {
         &self,
         drawing: &mut Drawing,
         palette: &Palette,
-        at: impl Fn(f32) -> Pos2,
+        place_of: impl Fn(f32) -> Pos2,
         away: Vec2,
         stressed: Option<usize>,
     ) {
-        let gap = (at(1.0) - at(0.0)).length();
+        let gap = (place_of(1.0) - place_of(0.0)).length();
         let longest = self.labels.iter().map(String::len).max().unwrap_or(1) as f32;
         let every = ((6.0 * longest + 6.0).min(24.0) / gap.max(0.5)).ceil().max(1.0) as usize;
         for (k, label) in self.labels.iter().enumerate() {
             let stress = stressed == Some(k);
             if k % every == 0 || stress {
                 let colour = if stress { palette.accent } else { palette.weak };
-                let place = at(k as f32) + away * 13.0;
+                let place = place_of(k as f32) + away * 13.0;
                 drawing.words(place, Align2::CENTER_CENTER, label.clone(), size::SMALL, colour);
             }
         }
-        let middle = at(0.5 * self.count as f32 - 0.5) + away * (20.0 + 5.0 * longest.min(4.0));
+        let middle = place_of(0.5 * self.count as f32 - 0.5) + away * (20.0 + 5.0 * longest.min(4.0));
         drawing.words(middle, Align2::CENTER_CENTER, "DOF", size::SMALL, palette.weak);
     }
 

@@ -45,7 +45,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let columns = if ui.available_width() >= 2.0 * LEAST { 2 } else { 1 };
     let width = ui.available_width() / columns as f32 - 4.0;
     let (mut panels, mut responses) = (Vec::new(), Vec::new());
-    let mut one = |ui: &mut Ui, k: usize| {
+    let mut show_plot = |ui: &mut Ui, k: usize| {
         let figure = figures[k].clone().displayed();
         ui.allocate_ui(vec2(width, PLOTS), |ui| {
             ui.set_width(width);
@@ -65,9 +65,9 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
         }
         let plots = row..(row + 2).min(figures.len());
         if columns == 2 {
-            ui.horizontal_top(|ui| plots.for_each(|k| one(ui, k)));
+            ui.horizontal_top(|ui| plots.for_each(|k| show_plot(ui, k)));
         } else {
-            plots.for_each(|k| one(ui, k));
+            plots.for_each(|k| show_plot(ui, k));
         }
     }
     export::offer_sheet(ui, &responses, Sheet { title, columns: 2, panels });
