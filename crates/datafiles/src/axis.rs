@@ -106,8 +106,8 @@ mod tests {
 
     #[test]
     fn times_since_1970_show_their_unit() {
-        let of = |first: f64| unit_since_1970(first).unwrap_or("s");
-        assert_eq!([1.7e9, 1.7e12, 1.7e15, 1.7e18, 0.0, 5e4].map(of), ["s", "ms", "us", "ns", "s", "s"]);
+        let unit_of = |first: f64| unit_since_1970(first).unwrap_or("s");
+        assert_eq!([1.7e9, 1.7e12, 1.7e15, 1.7e18, 0.0, 5e4].map(unit_of), ["s", "ms", "us", "ns", "s", "s"]);
     }
 
     #[test]

@@ -182,11 +182,11 @@ fn stems(names: &[String]) -> usize {
 
 /// Whether the only channels of all sets have the same times, and began together where that is stated.
 fn same_times(sets: &[&Set], own: &[usize], places: &[Vec<Place>], source: &dyn Source) -> Read<bool> {
-    let of = |i: usize| only(sets[i]).map(|c| (&sets[i].channels[c], places[own[i]][c]));
-    let Some((first, place)) = of(0) else { return Ok(false) };
+    let channel_and_place = |i: usize| only(sets[i]).map(|c| (&sets[i].channels[c], places[own[i]][c]));
+    let Some((first, place)) = channel_and_place(0) else { return Ok(false) };
     let mut times = None;
     for i in 1..sets.len() {
-        let Some((other, at)) = of(i) else { return Ok(false) };
+        let Some((other, at)) = channel_and_place(i) else { return Ok(false) };
         if other.count != first.count || other.complex || first.complex || !begins_with(first, other) {
             return Ok(false);
         }

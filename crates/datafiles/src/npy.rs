@@ -213,8 +213,8 @@ impl Arrays for Npy {
     }
 
     fn column(&self, _id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
-        let one = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such column"));
-        self.real_columns(cut, &[channel]).transpose().map(|flats| flats.and_then(one))
+        let only_column = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such column"));
+        self.real_columns(cut, &[channel]).transpose().map(|flats| flats.and_then(only_column))
     }
 
     fn columns(&self, _id: usize, cut: &Cut, channels: &[u64]) -> Option<Read<Vec<Flat>>> {

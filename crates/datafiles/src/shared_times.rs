@@ -24,8 +24,8 @@ pub(crate) fn beside(mut contents: Contents, source: Box<dyn Source>) -> Read<(C
         }
         let Some(count) = set.channels.first().map(|channel| channel.count) else { continue };
         let near = |other: &Set| parent(contents.format, &other.name) == parent(contents.format, &set.name);
-        let of = |other: &Set| near(other) && abscissa(other).is_some_and(|channel| channel.count == count);
-        let mut found = (0..contents.sets.len()).filter(|&t| t != s && of(&contents.sets[t]));
+        let gives_times = |other: &Set| near(other) && abscissa(other).is_some_and(|channel| channel.count == count);
+        let mut found = (0..contents.sets.len()).filter(|&t| t != s && gives_times(&contents.sets[t]));
         if let (Some(t), None) = (found.next(), found.next())
             && set.channels.iter().all(|channel| channel.count == count)
             && count <= MOST_CHECKED

@@ -20,11 +20,11 @@ fn hex(text: &str) -> f64 {
 }
 
 fn expected(values: &Value) -> Vec<[f64; 2]> {
-    let one = |value: &Value| match value {
+    let complex_value = |value: &Value| match value {
         Value::String(text) => [hex(text), 0.0],
         pair => [hex(pair[0].as_str().unwrap()), hex(pair[1].as_str().unwrap())],
     };
-    values.as_array().unwrap().iter().map(one).collect()
+    values.as_array().unwrap().iter().map(complex_value).collect()
 }
 
 fn pairs(values: Values) -> Vec<[f64; 2]> {

@@ -53,6 +53,6 @@ fn channels_that_share_their_rows_are_read_in_one_pass() {
     hole(&path, 4 * VECTOR + 16 * ROWS, &[(4 * VECTOR + 16 * 999 + 5, 7.0), (4 * VECTOR + 16 * 9999 + 9, 8.0)]);
     let opened = open(&path).unwrap();
     let set = &opened.contents().sets[0];
-    let at = |name: &str| set.channels.iter().position(|channel| channel.name == name).expect(name);
-    check_together(&path, [at("rows[6]"), at("rows[10]")], rows);
+    let channel_number = |name: &str| set.channels.iter().position(|channel| channel.name == name).expect(name);
+    check_together(&path, [channel_number("rows[6]"), channel_number("rows[10]")], rows);
 }

@@ -106,8 +106,7 @@ mod tests {
 
     /// Stiffness of a bar from the origin to a node, `k e e^T` at the node in basic axes, with a spring of `g` to the ground.
     fn bar(k: f64, g: f64, e: [f64; 3]) -> [[f64; 3]; 3] {
-        let at = |i: usize, j: usize| k * e[i] * e[j] + if i == j { g } else { 0.0 };
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j)))
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| k * e[i] * e[j] + if i == j { g } else { 0.0 }))
     }
 
     /// The deck of one node whose stiffness is stated in directions `own`, given by hand for each system.

@@ -347,8 +347,8 @@ impl Arrays for Hdf5 {
     }
 
     fn column(&self, id: usize, cut: &Cut, channel: u64) -> Option<Read<Flat>> {
-        let one = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such channel"));
-        self.columns(id, cut, &[channel]).map(|flats| flats.and_then(one))
+        let only_column = |mut flats: Vec<Flat>| flats.pop().ok_or_else(|| Fault::new("there is no such channel"));
+        self.columns(id, cut, &[channel]).map(|flats| flats.and_then(only_column))
     }
 
     fn columns(&self, id: usize, cut: &Cut, channels: &[u64]) -> Option<Read<Vec<Flat>>> {

@@ -54,8 +54,9 @@ fn slab(dataset: &Dataset, along: usize, range: std::ops::Range<u64>, found: &mu
 }
 
 fn corner(dataset: &Dataset, at: &[u64], place: u64, found: &mut BTreeMap<u64, [f64; 2]>) -> Read<()> {
-    let one = |&i: &u64| SliceInfoElem::Slice { start: i, end: i + 1, step: 1 };
-    let values = dataset.read_slice::<Value>(&SliceInfo { selections: at.iter().map(one).collect() }).map_err(wrong)?;
+    let index = |&i: &u64| SliceInfoElem::Slice { start: i, end: i + 1, step: 1 };
+    let values =
+        dataset.read_slice::<Value>(&SliceInfo { selections: at.iter().map(index).collect() }).map_err(wrong)?;
     found.extend(values.iter().next().map(|value| (place, value.0)));
     Ok(())
 }

@@ -25,8 +25,8 @@ pub(super) struct Pair {
 
 /// The names of a set taken apart; none for columns that are complex.
 pub(super) fn names(set: &Set) -> Vec<Said> {
-    let of = |channel: &crate::contents::Channel| if channel.complex { Said::default() } else { said(&channel.name) };
-    set.channels.iter().map(of).collect()
+    let taken_apart = |c: &crate::contents::Channel| if c.complex { Said::default() } else { said(&c.name) };
+    set.channels.iter().map(taken_apart).collect()
 }
 
 /// Pairs by their names, in the order of their first columns.

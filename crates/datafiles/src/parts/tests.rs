@@ -103,10 +103,10 @@ fn columns_without_names_are_paired_where_the_user_says_so() {
 
 #[test]
 fn one_unit_for_all_functions_is_that_of_levels_and_parts() {
-    let of = |name: &str, unit: &str| unit_of_part(name, &[unit.to_owned()]);
-    assert_eq!(of("H1_dB", "(m/s²)/N").as_deref(), Some("dB re (m/s²)/N"));
-    assert_eq!(of("H1_phase_deg", "(m/s²)/N").as_deref(), Some(""));
-    assert_eq!(of("Coherence", "(m/s²)/N").as_deref(), Some(""));
-    assert_eq!(of("Re(H)", "g/N").as_deref(), Some("g/N"));
-    assert_eq!((of("H1_dB", "m"), of("temperature", "g/N"), unit_of_part("H1_dB", &[])), (None, None, None));
+    let unit_of = |name: &str, unit: &str| unit_of_part(name, &[unit.to_owned()]);
+    assert_eq!(unit_of("H1_dB", "(m/s²)/N").as_deref(), Some("dB re (m/s²)/N"));
+    assert_eq!(unit_of("H1_phase_deg", "(m/s²)/N").as_deref(), Some(""));
+    assert_eq!(unit_of("Coherence", "(m/s²)/N").as_deref(), Some(""));
+    assert_eq!(unit_of("Re(H)", "g/N").as_deref(), Some("g/N"));
+    assert_eq!((unit_of("H1_dB", "m"), unit_of("temperature", "g/N"), unit_of_part("H1_dB", &[])), (None, None, None));
 }

@@ -351,7 +351,7 @@ mod tests {
 
     #[test]
     fn names_and_units_stand_further_up_or_once_over_two_columns() {
-        let of = |text: &[&str], width| {
+        let titles = |text: &[&str], width| {
             let header = read(&lines(text), width);
             (header.names.join(","), header.units.join(","))
         };
@@ -362,14 +362,14 @@ mod tests {
             "Sample rate=1;Sample rate=1;Sample rate=1",
             "SensorType=;U9C;B12",
         ];
-        assert_eq!(of(&catman, 3), ("Zeit,Kraft,Acc_1".into(), "s,N,g".into()));
+        assert_eq!(titles(&catman, 3), ("Zeit,Kraft,Acc_1".into(), "s,N,g".into()));
         assert_eq!(
-            of(&["Zeit;Kraft;Acc", "s;N;g", "at 11:58;at 11:58;at 11:58"], 3),
+            titles(&["Zeit;Kraft;Acc", "s;N;g", "at 11:58;at 11:58;at 11:58"], 3),
             ("Zeit,Kraft,Acc".into(), "s,N,g".into())
         );
-        assert_eq!(of(&["Force;;Acc;", "X [s];Y [N];X [s];Y [g]"], 4), ("X,Force,X,Acc".into(), "s,N,s,g".into()));
-        assert_eq!(of(&["t/s;F/N;s/µm"], 3), ("t,F,s".into(), "s,N,µm".into()));
-        assert_eq!(of(&["time_s;force_N;acc_mg"], 3), ("time_s,force_N,acc_mg".into(), "s,N,mg".into()));
+        assert_eq!(titles(&["Force;;Acc;", "X [s];Y [N];X [s];Y [g]"], 4), ("X,Force,X,Acc".into(), "s,N,s,g".into()));
+        assert_eq!(titles(&["t/s;F/N;s/µm"], 3), ("t,F,s".into(), "s,N,µm".into()));
+        assert_eq!(titles(&["time_s;force_N;acc_mg"], 3), ("time_s,force_N,acc_mg".into(), "s,N,mg".into()));
         let header = read(&lines(&["Channel;Time;Force", "Unit;s;mV", "Sensitivity;;22.5 mV/N"]), 3);
         assert_eq!(header.sensitivities[2], "22.5 mV/N");
     }

@@ -67,11 +67,11 @@ mod tests {
 
     #[test]
     fn rates_are_understood() {
-        let of = |text: &str| step(&text.split(';').map(str::to_owned).collect::<Vec<_>>());
-        assert_eq!(of("# Sampling rate: 2000 Hz"), Some(1.0 / 2000.0));
-        assert_eq!(of("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
-        assert_eq!(of("dt = 0.5 ms"), Some(0.0005));
-        assert_eq!(of("date: 2024"), None);
+        let step_in = |text: &str| step(&text.split(';').map(str::to_owned).collect::<Vec<_>>());
+        assert_eq!(step_in("# Sampling rate: 2000 Hz"), Some(1.0 / 2000.0));
+        assert_eq!(step_in("Abtastrate;2,5 kHz"), Some(1.0 / 2500.0));
+        assert_eq!(step_in("dt = 0.5 ms"), Some(0.0005));
+        assert_eq!(step_in("date: 2024"), None);
         let lines = ["X,CH1,CH2,Start,Increment", "Sequence,Volt,Volt,-0.001,0.0005"];
         let lines = lines.map(|line| HeaderLine { cells: line.split(',').map(str::to_owned).collect() });
         assert_eq!((step_below(&lines), step_below(&lines[1..])), (Some(0.0005), None));

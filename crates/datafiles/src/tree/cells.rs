@@ -46,14 +46,14 @@ fn named(entries: Vec<Entry>) -> Vec<Entry> {
     // Place of field `field` of channel `channel`, by columns and by rows.
     let layouts: [&dyn Fn(usize, usize) -> usize; 2] =
         [&|channel, field| channel * (each + 1) + field, &|channel, field| field * arrays + channel];
-    let fits = |at: &&&dyn Fn(usize, usize) -> usize| {
-        let is_text = |channel: usize| (0..each).all(|field| text(&entries[at(channel, field)]).is_some());
-        (0..arrays).all(|channel| is_text(channel) && array(&entries[at(channel, each)]).is_some())
+    let fits = |place: &&&dyn Fn(usize, usize) -> usize| {
+        let is_text = |channel: usize| (0..each).all(|field| text(&entries[place(channel, field)]).is_some());
+        (0..arrays).all(|channel| is_text(channel) && array(&entries[place(channel, each)]).is_some())
     };
-    let Some(at) = layouts.iter().find(fits) else { return entries };
+    let Some(place) = layouts.iter().find(fits) else { return entries };
     let channel = |channel: usize| {
-        let mut entry = entries[at(channel, each)].clone();
-        let words: Vec<&str> = (0..each).filter_map(|field| text(&entries[at(channel, field)])).collect();
+        let mut entry = entries[place(channel, each)].clone();
+        let words: Vec<&str> = (0..each).filter_map(|field| text(&entries[place(channel, field)])).collect();
         words[0].clone_into(&mut entry.name);
         entry
             .attributes

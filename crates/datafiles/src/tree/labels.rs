@@ -139,15 +139,15 @@ mod tests {
         let text =
             |name: &str, texts: &[&str]| Entry::new(name, Node::Text(texts.iter().map(|&t| t.to_owned()).collect()));
         let names = || text("channel_names", &["Acc 1z", "Acc 2z"]);
-        let of = |entries: &[Entry]| -> Vec<String> {
+        let labelled = |entries: &[Entry]| -> Vec<String> {
             let (found, _) = sets(entries, &[], &Zeros).unwrap_or_default();
             found.iter().flat_map(|set| &set.channels).map(|c| format!("{} [{}]", c.name, c.unit)).collect()
         };
         let two = [array("H_dB", 0), array("H_phase_deg", 1), names(), text("unit", &["g/N"])];
         assert_eq!(
-            of(&two),
+            labelled(&two),
             ["H_dB Acc 1z [dB re g/N]", "H_dB Acc 2z [dB re g/N]", "H_phase_deg Acc 1z []", "H_phase_deg Acc 2z []"]
         );
-        assert_eq!(of(&[array("data", 0), names()]), ["Acc 1z []", "Acc 2z []"]);
+        assert_eq!(labelled(&[array("data", 0), names()]), ["Acc 1z []", "Acc 2z []"]);
     }
 }

@@ -210,8 +210,8 @@ mod tests {
                     for axis in axes {
                         (index[axis], rest) = ((rest % extents[axis]) as usize, rest / extents[axis]);
                     }
-                    let at = |extent: u64| extents.iter().position(|&n| n == extent).map(|axis| index[axis]);
-                    assert_eq!((Some(a(k)), Some(b(k))), (at(3), at(2)), "{extents:?} {column_major} {k}");
+                    let along = |extent: u64| extents.iter().position(|&n| n == extent).map(|axis| index[axis]);
+                    assert_eq!((Some(a(k)), Some(b(k))), (along(3), along(2)), "{extents:?} {column_major} {k}");
                 }
             }
         }

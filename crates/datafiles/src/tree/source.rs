@@ -26,8 +26,8 @@ impl Flat {
 
     /// Values at the places that a listing shows.
     pub(crate) fn peek(&self, wanted: &[u64]) -> Vec<[f64; 2]> {
-        let at = |values: &[f64], i: u64| usize::try_from(i).ok().and_then(|i| values.get(i).copied());
-        wanted.iter().map(|&i| [at(&self.re, i).unwrap_or(f64::NAN), at(&self.im, i).unwrap_or(0.0)]).collect()
+        let value = |values: &[f64], i: u64| usize::try_from(i).ok().and_then(|i| values.get(i).copied());
+        wanted.iter().map(|&i| [value(&self.re, i).unwrap_or(f64::NAN), value(&self.im, i).unwrap_or(0.0)]).collect()
     }
 }
 

@@ -68,9 +68,9 @@ impl AnalysisHeader {
 
     /// Damping ratio: viscous, else half the hysteretic one, else that of the eigenvalue, where it is stated.
     pub fn damping_ratio(&self) -> Option<f64> {
-        let at = |i: usize| self.reals.get(i).copied().filter(|&x| x != 0.0);
+        let stated_real = |i: usize| self.reals.get(i).copied().filter(|&x| x != 0.0);
         let of_eigenvalue = || self.eigenvalue().map(|[re, im]| -re / re.hypot(im));
-        at(4).or_else(|| at(5).map(|hysteretic| hysteretic / 2.0)).or_else(of_eigenvalue)
+        stated_real(4).or_else(|| stated_real(5).map(|hysteretic| hysteretic / 2.0)).or_else(of_eigenvalue)
     }
 
     /// Complex eigenvalue, rad/s, `[re, im]`, where it is stated.
@@ -90,7 +90,7 @@ impl Analysis {
         let header = read_header(body)?;
         let parts = 1 + usize::from(header.complex());
         let at_nodes = header.per_node * parts;
-        let of = |labels: &[i64], i: usize| labels.get(i).and_then(|&n| usize::try_from(n).ok()).unwrap_or(0);
+        let label = |labels: &[i64], i: usize| labels.get(i).and_then(|&n| usize::try_from(n).ok()).unwrap_or(0);
         let (location, width) = match header.location {
             1 => (1, 1),
             2 => (2, 2),
@@ -98,10 +98,10 @@ impl Analysis {
         };
         let Rows { labels, numbers, starts } = read_rows(body, width, |labels| match location {
             1 => at_nodes,
-            2 => of(labels, 1).saturating_mul(parts),
+            2 => label(labels, 1).saturating_mul(parts),
             _ => {
-                let places = if of(labels, 1) == 2 { 1 } else { of(labels, 2) };
-                places.saturating_mul(of(labels, 3)).saturating_mul(parts)
+                let places = if label(labels, 1) == 2 { 1 } else { label(labels, 2) };
+                places.saturating_mul(label(labels, 3)).saturating_mul(parts)
             }
         })?;
         let starts = starts.into_iter().map(|start| start / parts).collect();

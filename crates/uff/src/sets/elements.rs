@@ -78,8 +78,8 @@ fn beam_record(body: &mut Body<'_>, element: Line<'_>, count: usize) -> Result<O
         body.back_to(line);
         return Ok(None);
     }
-    let at = |i: usize| numbers.get(i).copied().unwrap_or(0);
-    Ok(Some([at(0), at(1), at(2)]))
+    let number = |i: usize| numbers.get(i).copied().unwrap_or(0);
+    Ok(Some([number(0), number(1), number(2)]))
 }
 
 fn node_labels(body: &mut Body<'_>, element: Line<'_>, count: usize) -> Result<Vec<i64>, Error> {

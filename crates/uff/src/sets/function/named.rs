@@ -133,18 +133,18 @@ mod tests {
     #[test]
     fn lines_of_free_text_name_points_where_the_fields_do_not() {
         let none = || [Dof::default(), Dof::default()];
-        let of = |line: &str| stated([line, "21/03/24 10:11:12"], none());
-        assert_eq!(of("FRF Acc_3:+Z / Ham_5:-Z"), "3:+Z 5:-Z");
-        assert_eq!(of("FRF Ham_5:-Z / Acc_3:+Z"), "3:+Z 5:-Z");
-        assert_eq!(of("beam:12:+X/beam:1:+X [m/s^2/N]"), "12:+X 1:+X");
-        assert_eq!(of("H1 Point 3/Hammer 5"), "3:S 5:S");
-        assert_eq!(of("Response: 3z  Reference: 5z"), "3:+Z 5:+Z");
+        let dofs_of = |line: &str| stated([line, "21/03/24 10:11:12"], none());
+        assert_eq!(dofs_of("FRF Acc_3:+Z / Ham_5:-Z"), "3:+Z 5:-Z");
+        assert_eq!(dofs_of("FRF Ham_5:-Z / Acc_3:+Z"), "3:+Z 5:-Z");
+        assert_eq!(dofs_of("beam:12:+X/beam:1:+X [m/s^2/N]"), "12:+X 1:+X");
+        assert_eq!(dofs_of("H1 Point 3/Hammer 5"), "3:S 5:S");
+        assert_eq!(dofs_of("Response: 3z  Reference: 5z"), "3:+Z 5:+Z");
         assert_eq!(stated(["Ref: Hammer 7:+Y", ""], [Dof::new(3, 2), Dof::default()]), "3:+Y 7:+Y");
         // What the fields say goes first; dates, units and ratios are no points.
         assert_eq!(stated(["Acc_3:+Z / Ham_5:+Z", ""], [Dof::new(1, 1), Dof::new(2, 1)]), "1:+X 2:+X");
-        assert_eq!(of("Vib / Ref1 FRF"), "0:S 0:S");
+        assert_eq!(dofs_of("Vib / Ref1 FRF"), "0:S 0:S");
         for line in ["Test 21/03/2024", "m/s^2/N", "Run 3/5 of 12", "Average 5, 12.5 Hz"] {
-            assert_eq!(of(line), "0:S 0:S", "{line}");
+            assert_eq!(dofs_of(line), "0:S 0:S", "{line}");
         }
     }
 }
