@@ -44,20 +44,20 @@ fn measure(criterion: &mut Criterion) {
     let control = || Control::unattended().with_workers(Arc::new(Threads));
     let mut group = criterion.benchmark_group("diagnose");
     group.sample_size(10);
-    let mut one = |name: String, effect: Effect, sensors: usize, runs: usize| {
+    let mut measure_case = |name: String, effect: Effect, sensors: usize, runs: usize| {
         let project = project(effect, sensors, runs);
         group.bench_with_input(BenchmarkId::new(effect.name(), name), &project, |b, project| {
             b.iter(|| diagnose(&project.problem(), &control()).unwrap());
         });
     };
     for sensors in [3, 6, 10] {
-        one(format!("24 runs, {sensors} sensors"), Effect::Viscous, sensors, 24);
+        measure_case(format!("24 runs, {sensors} sensors"), Effect::Viscous, sensors, 24);
     }
     for runs in [12, 48] {
-        one(format!("{runs} runs, 6 sensors"), Effect::Viscous, 6, runs);
+        measure_case(format!("{runs} runs, 6 sensors"), Effect::Viscous, 6, runs);
     }
     for effect in [Effect::Coulomb, Effect::CubicStiffness, Effect::Mass, Effect::LossFactor, Effect::Delay] {
-        one("24 runs, 6 sensors".to_owned(), effect, 6, 24);
+        measure_case("24 runs, 6 sensors".to_owned(), effect, 6, 24);
     }
     group.finish();
 }

@@ -62,12 +62,12 @@ fn record() -> Arc<Record> {
     };
     let mut seed = 1_u64;
     let samples = |k: usize| {
-        let mut one = |t: &f64| {
+        let mut sample_at = |t: &f64| {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let noise = (seed >> 33) as f64 / f64::from(1_u32 << 31) - 0.5;
             (TAU * FREQUENCY * t + k as f64).cos() * (1.0 + 0.2 * (0.3 * t).sin()) + 0.1 * noise
         };
-        time.iter().map(&mut one).collect::<Vec<f64>>()
+        time.iter().map(&mut sample_at).collect::<Vec<f64>>()
     };
     let mut all = Vec::new();
     let mut samples = samples;

@@ -36,8 +36,8 @@ fn row(n: usize, share: f64) -> usize {
 }
 
 fn friction(n: usize, count: usize) -> Vec<Source> {
-    let at = |k: usize| source(Effect::Coulomb, row(n, (k + 1) as f64 / count as f64), &[0.3 / (k + 1) as f64]);
-    [vec![damped(), source(Effect::Viscous, row(n, 0.2), &[0.2])], (0..count).map(at).collect()].concat()
+    let joint = |k: usize| source(Effect::Coulomb, row(n, (k + 1) as f64 / count as f64), &[0.3 / (k + 1) as f64]);
+    [vec![damped(), source(Effect::Viscous, row(n, 0.2), &[0.2])], (0..count).map(joint).collect()].concat()
 }
 
 fn one_response(c: &mut Criterion) {
@@ -157,8 +157,8 @@ fn growth(c: &mut Criterion) {
     }
     // A chain, not a beam: a beam of a thousand elements has no digits left in its first modes.
     for n in [20, 200, 2000] {
-        let at = |share: usize, f: f64| source(Effect::Coulomb, n * share / 4 - 1, &[f]);
-        let sources = [damped(), at(1, 0.1), at(2, 0.2), at(4, 0.3)];
+        let friction_at = |share: usize, f: f64| source(Effect::Coulomb, n * share / 4 - 1, &[f]);
+        let sources = [damped(), friction_at(1, 0.1), friction_at(2, 0.2), friction_at(4, 0.3)];
         let structure = uniform_chain(n, 1.0 / n as f64, 1e3 * n as f64);
         let Ok(model) = ForwardModel::new(&structure, &sources) else { continue };
         let excitation = Excitation::sine(TAU * 7.0, n - 1, c64::new(1.0, 0.0));

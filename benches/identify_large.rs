@@ -43,15 +43,15 @@ fn candidates(n: usize) -> Vec<Source> {
 
 fn runs(structure: &Structure, seed: u64) -> Vec<Run> {
     let n = structure.len();
-    let at = |part: f64| (part * n as f64) as usize;
+    let dof_at = |part: f64| (part * n as f64) as usize;
     let truth: Vec<Source> = PLACES
         .iter()
         .zip([3.0, 2.0, 5.0, 1.0])
-        .map(|(&part, c)| Source::known(Effect::Viscous, Place::Dofs(vec![at(part)]), &[c]))
+        .map(|(&part, c)| Source::known(Effect::Viscous, Place::Dofs(vec![dof_at(part)]), &[c]))
         .collect();
     let stiffness = DynamicStiffness::new(structure, &truth).unwrap_or_else(|error| panic!("{error}"));
-    let drives = [at(0.03), at(0.36), at(0.75)];
-    let sensors: Vec<usize> = (0..SENSORS).map(|s| at((s as f64 + 0.5) / SENSORS as f64)).chain(drives).collect();
+    let drives = [dof_at(0.03), dof_at(0.36), dof_at(0.75)];
+    let sensors: Vec<usize> = (0..SENSORS).map(|s| dof_at((s as f64 + 0.5) / SENSORS as f64)).chain(drives).collect();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
     (0..RUNS)

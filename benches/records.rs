@@ -37,11 +37,11 @@ fn decay(structure: &Structure) -> TransientRun {
     let dofs: Vec<usize> = rows.iter().rev().take(CHANNELS).copied().collect();
     let sample = |dof: usize, n: usize| -> f64 {
         let t = step * n as f64;
-        let of = |r: usize| {
+        let mode_acceleration = |r: usize| {
             let omega = modes.omega[r];
             -omega * omega * modes.shapes[(dof, r)] * 1e-4 * (-0.1 * t).exp() * (omega * t).cos()
         };
-        of(0) + of(1)
+        mode_acceleration(0) + mode_acceleration(1)
     };
     let samples = dofs.iter().map(|&dof| (0..SAMPLES).map(|n| sample(dof, n) + 0.01 * uniform()).collect()).collect();
     let channel = |&dof: &usize| Channel { quantity: Quantity::Acceleration, dof, label: structure.label(dof).into() };

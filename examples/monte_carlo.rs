@@ -124,17 +124,17 @@ fn clean_runs(structure: &Structure, case: &Case) -> Result<Vec<Vec<faer::c64>>>
     let stiffness = DynamicStiffness::new(structure, &sources)?;
     let mut force = vec![faer::c64::new(0.0, 0.0); structure.len()];
     force[DRIVE] = faer::c64::new(1.0, 0.0);
-    let one = |f: &f64| {
+    let clean_run = |f: &f64| {
         let omega = TAU * f;
         let x = stiffness.solve(omega, &force)?;
         Ok(SENSORS.iter().map(|&dof| -x[dof] * omega * omega).collect())
     };
-    case.frequencies_hz.iter().map(one).collect()
+    case.frequencies_hz.iter().map(clean_run).collect()
 }
 
 fn noisy_runs(case: &Case, clean: &[Vec<faer::c64>], seed: u64, force_noise: bool) -> Result<Vec<Run>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let one = |(frequency, amplitudes): (&f64, &Vec<faer::c64>)| -> Result<Run> {
+    let noisy_run = |(frequency, amplitudes): (&f64, &Vec<faer::c64>)| -> Result<Run> {
         let period = 1.0 / frequency;
         let time: Vec<f64> = (0..case.samples).map(|n| PERIODS * period * n as f64 / case.samples as f64).collect();
         let unit = faer::c64::new(1.0, 0.0);
@@ -148,7 +148,7 @@ fn noisy_runs(case: &Case, clean: &[Vec<faer::c64>], seed: u64, force_noise: boo
         let record = Record::new(time, channels, samples)?;
         Ok(Run::from_record(format!("{frequency:.1} Hz"), None, true, Arc::new(record), Some(*frequency), 1, &[])?)
     };
-    case.frequencies_hz.iter().zip(clean).map(one).collect()
+    case.frequencies_hz.iter().zip(clean).map(noisy_run).collect()
 }
 
 fn named(quantity: Quantity, dof: usize) -> Channel {

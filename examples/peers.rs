@@ -98,8 +98,9 @@ fn harmonics(p: &Steady) -> Result<Value> {
         Ok((found.omega, fit(&record, found.omega, p.harmonics)?))
     };
     let ((omega, fitted), seconds) = timed(11, work)?;
-    let of = |c: &dashpot::measurement::ChannelFit| c.amplitudes.iter().map(|y| [y.re, y.im]).collect::<Vec<_>>();
-    let amplitudes: Vec<_> = fitted.channels.iter().map(of).collect();
+    let parts_of_amplitudes =
+        |c: &dashpot::measurement::ChannelFit| c.amplitudes.iter().map(|y| [y.re, y.im]).collect::<Vec<_>>();
+    let amplitudes: Vec<_> = fitted.channels.iter().map(parts_of_amplitudes).collect();
     Ok(json!({ "omega": omega, "amplitudes": amplitudes, "seconds": seconds }))
 }
 
@@ -108,8 +109,9 @@ fn oscillation(p: &Oscillator) -> Result<Value> {
     let chain = ChainParameters { masses: vec![1.0], ground_stiffness: vec![p.k], coupling_stiffness: vec![] };
     let structure = chain.build(&[])?;
     let modes = structure.modes()?;
-    let at = || Place::Dofs(vec![0]);
-    let sources = [Source::known(Effect::Viscous, at(), &[p.c]), Source::known(Effect::CubicStiffness, at(), &[p.k3])];
+    let place = || Place::Dofs(vec![0]);
+    let sources =
+        [Source::known(Effect::Viscous, place(), &[p.c]), Source::known(Effect::CubicStiffness, place(), &[p.k3])];
     let channels = [Channel { quantity: Quantity::Displacement, dof: 0, label: "1".into() }];
     let setup = TransientSetup {
         structure: &structure,

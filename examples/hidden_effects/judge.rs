@@ -104,10 +104,10 @@ fn scored(truth: &Truth, suggestions: &[Suggestion], verdict: &str, answer: &Ans
         marks.extend(alarm.then(|| "ALARM".to_string()));
         return marks;
     }
-    let at = |n: &Named| truth.hidden.iter().any(|t| t.same_place(n)) || truth.excused(n);
+    let at_right_place = |n: &Named| truth.hidden.iter().any(|t| t.same_place(n)) || truth.excused(n);
     let law = first.is_some_and(|s| truth.law(&s.told));
     let named = suggestions.iter().any(|s| truth.law(&s.told));
-    let place = first.is_some_and(|s| at(&s.told) || s.alike.iter().any(at));
+    let place = first.is_some_and(|s| at_right_place(&s.told) || s.alike.iter().any(at_right_place));
     tally.law = usize::from(law);
     tally.law_or_named = usize::from(law || (verdict == "undecided" && named));
     tally.among_three = usize::from(suggestions.iter().take(3).any(|s| truth.law(&s.told)));

@@ -91,9 +91,12 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
         Measuring { quantity, rows: &rows, gains: &gains, offsets: &offsets, noise, decay: plan.class == "rdecay" };
     // Natural frequencies scatter from record to record.
     let drift: Vec<f64> = tests.iter().map(|_| factor(DRIFT, random)).collect();
-    let at = |factor: &f64| truth.structure.with_factors(&[(Part::Stiffness, factor.powi(2))]);
-    let records: Vec<Record> =
-        tests.iter().zip(&drift).map(|(test, f)| chain.record(&at(f), &all, test, random)).collect::<Option<_>>()?;
+    let drifted = |factor: &f64| truth.structure.with_factors(&[(Part::Stiffness, factor.powi(2))]);
+    let records: Vec<Record> = tests
+        .iter()
+        .zip(&drift)
+        .map(|(test, f)| chain.record(&drifted(f), &all, test, random))
+        .collect::<Option<_>>()?;
     let documents: Vec<Value> = hidden_true.iter().map(|s| document(s, &truth.structure)).collect();
     Some(Written {
         truth: json!({

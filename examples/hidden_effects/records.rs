@@ -89,7 +89,7 @@ impl Chain<'_> {
         let rms = (0.5 * y.iter().map(c64::norm_sqr).sum::<f64>()).sqrt();
         let last = time[time.len() - 1];
         let dying = if channel.quantity == Quantity::Force { 0.0 } else { self.transient };
-        let at = |t: f64| -> f64 {
+        let sample_at = |t: f64| -> f64 {
             let turn = c64::new(0.0, omega * t).exp();
             let mut power = c64::new(1.0, 0.0);
             let mut sum = 0.0;
@@ -99,6 +99,6 @@ impl Chain<'_> {
             }
             sum + dying * rms * (-2.0 * t / last).exp() * (0.97 * omega * t).cos()
         };
-        time.iter().map(|&t| at(t) + self.noise * rms * random.normal()).collect()
+        time.iter().map(|&t| sample_at(t) + self.noise * rms * random.normal()).collect()
     }
 }

@@ -45,8 +45,10 @@ struct Scale {
 impl Scale {
     fn new(source: &Source, before: &[Response]) -> Self {
         let leg = source.place.legs().first().copied();
-        let at = |r: &Response| leg.map_or(1.0, |l| l.relative(|i| r.amplitude(i, 1)).norm());
-        let largest = |weight: &dyn Fn(f64) -> f64| before.iter().map(|r| weight(r.omega) * at(r)).fold(0.0, f64::max);
+        let relative_amplitude = |r: &Response| leg.map_or(1.0, |l| l.relative(|i| r.amplitude(i, 1)).norm());
+        let largest = |weight: &dyn Fn(f64) -> f64| {
+            before.iter().map(|r| weight(r.omega) * relative_amplitude(r)).fold(0.0, f64::max)
+        };
         let logs = before.iter().map(|r| r.omega.ln()).sum::<f64>();
         Self { d: largest(&|_| 1.0), v: largest(&|w| w), omega: (logs / before.len() as f64).exp() }
     }

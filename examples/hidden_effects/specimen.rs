@@ -80,7 +80,7 @@ impl Specimen {
     /// Known damping: about 0.5 to 1.5 % in the lowest modes.
     pub(crate) fn known(&self, structure: &Structure, random: &mut Random) -> Vec<Source> {
         let omega = structure.modes().unwrap().omega;
-        let at = |effect, dofs: &[usize], c| Source::known(effect, Place::Dofs(dofs.to_vec()), &[c]);
+        let known_law = |effect, dofs: &[usize], c| Source::known(effect, Place::Dofs(dofs.to_vec()), &[c]);
         match self {
             Self::Beam(beam) => {
                 let mass = beam.length * beam.breadth * beam.depth * beam.density;
@@ -89,18 +89,18 @@ impl Specimen {
                 let c = random.within(0.005, 0.02) * mass * omega[0];
                 vec![
                     Source::known(Effect::StiffnessProportional, Place::Whole(None), &[beta]),
-                    at(Effect::Viscous, &[rows[rows.len() / 2]], c),
+                    known_law(Effect::Viscous, &[rows[rows.len() / 2]], c),
                 ]
             }
             Self::Chain(chain) => {
                 let mut list = Vec::new();
                 for (i, m) in chain.masses.iter().enumerate() {
                     if i % 2 == 0 {
-                        list.push(at(Effect::Viscous, &[i], random.within(0.01, 0.04) * m * omega[0]));
+                        list.push(known_law(Effect::Viscous, &[i], random.within(0.01, 0.04) * m * omega[0]));
                     }
                 }
                 let i = random.below(chain.masses.len() - 1);
-                list.push(at(Effect::Viscous, &[i, i + 1], 0.02 * chain.masses[i] * omega[0]));
+                list.push(known_law(Effect::Viscous, &[i, i + 1], 0.02 * chain.masses[i] * omega[0]));
                 list
             }
         }

@@ -78,7 +78,7 @@ impl Tally {
     }
 
     fn row(&self, class: &str) -> String {
-        let of = |k: usize, n: usize| {
+        let percentage = |k: usize, n: usize| {
             if n == 0 { "    -".to_string() } else { format!("{:5.1}", 100.0 * k as f64 / n as f64) }
         };
         let none = self.projects - self.hidden;
@@ -86,20 +86,20 @@ impl Tally {
             "{class:8} {:4} {:4} | {} {} {} {} | {} {} | {} {} {} | {} {} {:6.2} | {} {} | {:6.2} {:6.2} {:6.2}",
             self.projects,
             self.failed,
-            of(self.law, self.hidden),
-            of(self.law_or_named, self.hidden),
-            of(self.among_three, self.hidden),
-            of(self.place, self.hidden),
-            of(self.needless, self.hidden),
-            of(self.alarms, none),
-            of(self.within, self.compared),
-            of(self.close(), self.errors.len()),
+            percentage(self.law, self.hidden),
+            percentage(self.law_or_named, self.hidden),
+            percentage(self.among_three, self.hidden),
+            percentage(self.place, self.hidden),
+            percentage(self.needless, self.hidden),
+            percentage(self.alarms, none),
+            percentage(self.within, self.compared),
+            percentage(self.close(), self.errors.len()),
             format_args!("{:7.3}", 100.0 * quantile(&self.errors, 0.5)),
-            of(self.as_promised(), self.added.len()),
-            of(self.added.iter().filter(|&&a| a == Added::DoesNotOpen).count(), self.added.len()),
+            percentage(self.as_promised(), self.added.len()),
+            percentage(self.added.iter().filter(|&&a| a == Added::DoesNotOpen).count(), self.added.len()),
             scatter(&self.scores),
-            of(self.all, self.hidden),
-            of(self.to_floor, self.projects),
+            percentage(self.all, self.hidden),
+            percentage(self.to_floor, self.projects),
             quantile(&self.seconds, 0.5),
             quantile(&self.seconds, 0.9),
             quantile(&self.seconds, 1.0),

@@ -172,8 +172,9 @@ pub(crate) fn sized(mut source: Source, setup: &Setup, target: f64) -> Option<So
     let watched: Vec<Channel> = both.iter().flat_map(|&q| dofs.iter().map(move |&d| channel(q, d))).collect();
     let seen: Vec<Channel> = sensors.iter().map(|&d| channel(Quantity::Acceleration, d)).collect();
     let relative = |y: &[Vec<f64>], k: usize| {
-        let at = |n: usize| y[k * dofs.len()][n] - if dofs.len() > 1 { y[k * dofs.len() + 1][n] } else { 0.0 };
-        (0..y[0].len()).map(|n| at(n).abs()).fold(0.0, f64::max)
+        let relative_sample =
+            |n: usize| y[k * dofs.len()][n] - if dofs.len() > 1 { y[k * dofs.len() + 1][n] } else { 0.0 };
+        (0..y[0].len()).map(|n| relative_sample(n).abs()).fold(0.0, f64::max)
     };
     let (mut d, mut v) = (0.0_f64, 0.0_f64);
     let mut before = Vec::new();
