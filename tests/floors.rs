@@ -5,6 +5,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+#[path = "floors/closures.rs"]
+mod closures;
 #[path = "floors/functions.rs"]
 mod functions;
 #[path = "floors/rings.rs"]
@@ -67,23 +69,31 @@ struct Source {
 
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut folders = vec![root.clone()];
     let mut sources = Vec::new();
+    for path in rust_files(&root) {
+        let text = fs::read_to_string(&path).unwrap();
+        let path = path.strip_prefix(&root).unwrap().to_owned();
+        let room = path.iter().next().unwrap().to_string_lossy().trim_end_matches(".rs").to_owned();
+        sources.push(Source { room, code: code(&text), text, path });
+    }
+    assert!(sources.len() > 50, "the sources were not found");
+    sources
+}
+
+/// All files of Rust below a folder.
+fn rust_files(root: &Path) -> Vec<PathBuf> {
+    let (mut folders, mut files) = (vec![root.to_owned()], Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                let path = path.strip_prefix(&root).unwrap().to_owned();
-                let room = path.iter().next().unwrap().to_string_lossy().trim_end_matches(".rs").to_owned();
-                sources.push(Source { room, code: code(&text), text, path });
+                files.push(path);
             }
         }
     }
-    assert!(sources.len() > 50, "the sources were not found");
-    sources
+    files
 }
 
 /// The text without comments, strings' contents left as they are, and without a test module at the end.
