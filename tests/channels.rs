@@ -21,11 +21,11 @@ fn beam(youngs_modulus: f64) -> String {
 }
 
 fn runs(exciting: bool) -> String {
-    let one = |(i, f): (usize, &f64)| {
+    let run_table = |(i, f): (usize, &f64)| {
         let force = if exciting { "force_dof = 19\nforce_n = 1.0\n" } else { "" };
         format!("[[run]]\nfile = \"run-{i}.csv\"\nfrequency = {f:?}\n{force}")
     };
-    [9.6, 11.2, 61.0, 66.0, 176.0, 186.0].iter().enumerate().map(one).collect()
+    [9.6, 11.2, 61.0, 66.0, 176.0, 186.0].iter().enumerate().map(run_table).collect()
 }
 
 /// Records of a beam, hidden friction and all, beside a project whose stiffness is 2 % too high.

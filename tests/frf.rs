@@ -49,11 +49,11 @@ fn identified(project: &Project) -> Outcome {
 
 /// What was found: label of the DOF, coefficient, deviation.
 fn found(project: &Project, outcome: &Outcome) -> Vec<(String, f64, f64)> {
-    let one = |e: &dashpot::identify::Estimate| {
+    let with_label = |e: &dashpot::identify::Estimate| {
         let dashpot::effects::Place::Dofs(dofs) = &project.sources[e.source].place else { panic!() };
         (project.structure.label(dofs[0]).to_string(), e.coefficient, e.deviation)
     };
-    outcome.sources.iter().map(one).collect()
+    outcome.sources.iter().map(with_label).collect()
 }
 
 fn right(found: &[(String, f64, f64)]) {

@@ -265,8 +265,12 @@ fn a_report_can_be_signed_and_computed_again() {
     assert!(text.contains(&format!("<td>project.toml</td><td class=\"n\">{bytes}</td>")), "the project file itself");
     let (tables, figures) = (text.matches("<caption>Table ").count(), text.matches("<figcaption>Figure ").count());
     let all = unpacked(&folder.path().join("report-tables.zip"));
-    let of = |kind: &str| all.iter().filter(|(name, _)| name.starts_with(kind)).count();
-    assert_eq!([of("table-"), of("figure-")], [tables, figures], "every table and figure of {tables} and {figures}");
+    let count = |kind: &str| all.iter().filter(|(name, _)| name.starts_with(kind)).count();
+    assert_eq!(
+        [count("table-"), count("figure-")],
+        [tables, figures],
+        "every table and figure of {tables} and {figures}"
+    );
     assert!(all.iter().all(|(name, text)| text.lines().count() > 1
         && text.contains(',')
         && Path::new(name).extension().is_some_and(|e| e == "csv")));

@@ -83,15 +83,15 @@ impl Specimen {
             format!("{{ kind = \"release\", dof = {dof}, displacement_m = 0.002, duration_s = {seconds:?} }}")
         };
         for (i, dof) in self.hits.iter().enumerate() {
-            let of = |kind: &str, word: &str, excitation: String| {
+            let run_table = |kind: &str, word: &str, excitation: String| {
                 let excitation = if exciting { format!("excitation = {excitation}\n") } else { String::new() };
                 format!("[[run]]\nfile = \"{word}-{i}.csv\"\nkind = \"{kind}\"\n{excitation}")
             };
             if tests != Tests::Decay {
-                text += &of("transient", "hammer", hammer(dof));
+                text += &run_table("transient", "hammer", hammer(dof));
             }
             if tests != Tests::Hammer {
-                text += &of("decay", "decay", release(dof));
+                text += &run_table("decay", "decay", release(dof));
             }
         }
         text

@@ -47,7 +47,7 @@ pub(crate) fn unscaled(modes: &ModalData) -> ModalData {
 pub(crate) fn receptance(structure: &Structure, c: &Mat<f64>, d: &Mat<f64>, lines_hz: &[f64]) -> ReceptanceData {
     let matrices = structure.matrices().unwrap();
     let n = structure.len();
-    let at = |hz: &f64| {
+    let on_line = |hz: &f64| {
         let w = TAU * hz;
         let z = Mat::from_fn(n, n, |i, j| {
             let re = matrices.stiffness[(i, j)] - w * w * matrices.mass[(i, j)];
@@ -56,7 +56,10 @@ pub(crate) fn receptance(structure: &Structure, c: &Mat<f64>, d: &Mat<f64>, line
         let identity = Mat::from_fn(n, n, |i, j| c64::new(f64::from(u8::from(i == j)), 0.0));
         z.partial_piv_lu().solve(identity)
     };
-    ReceptanceData { omega: lines_hz.iter().map(|hz| TAU * hz).collect(), matrices: lines_hz.iter().map(at).collect() }
+    ReceptanceData {
+        omega: lines_hz.iter().map(|hz| TAU * hz).collect(),
+        matrices: lines_hz.iter().map(on_line).collect(),
+    }
 }
 
 /// Lines over the band of the five modes.

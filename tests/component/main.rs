@@ -27,7 +27,7 @@ fn at(effect: Effect, parameters: &[f64]) -> Source {
 /// Loops of three amplitudes and two frequencies with 0.3 % noise.
 fn tests(truth: &[Source]) -> Vec<TransientRun> {
     let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
-    let of = |(k, (amplitude_m, frequency_hz)): (usize, (f64, f64))| {
+    let recorded_test = |(k, (amplitude_m, frequency_hz)): (usize, (f64, f64))| {
         let loading = Loading::Cycles { amplitude_m, frequency_hz, ramp_s: 0.5 / frequency_hz };
         let (rate, samples) = (256.0, (256.0 * 4.0 / frequency_hz) as usize);
         let (d, f) = component_force(truth, MASS, &loading, rate, samples).unwrap();
@@ -40,7 +40,7 @@ fn tests(truth: &[Source]) -> Vec<TransientRun> {
         TransientRun::new(label, Arc::new(made), &[]).unwrap()
     };
     let all = [0.005, 0.01, 0.02].into_iter().flat_map(|a| [0.5, 2.0].map(|f| (a, f)));
-    all.enumerate().map(of).collect()
+    all.enumerate().map(recorded_test).collect()
 }
 
 fn diagnosed(known: &[Source], runs: &[TransientRun]) -> Diagnosis {

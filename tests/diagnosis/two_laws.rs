@@ -30,17 +30,17 @@ fn level(folder: &Path, level: usize, frequencies: &[f64]) -> String {
         "[[source]]\nlaw = \"iwan\"\ndofs = [1]\nstate = \"known\"\nstiffness = 28000.0\nforce = 3.0\nchi = -0.4\nbeta = 0.1\n\
          [[source]]\nlaw = \"cubic_stiffness\"\ndofs = [1]\nstate = \"known\"\nstiffness = {CUBIC:?}\n"
     );
-    let of = |more: &str| {
+    let runs_with = |more: &str| {
         let run = |(i, f): (usize, &f64)| format!("[[run]]\nfile = \"l{level}-{i}.csv\"\nfrequency = {f:?}\n{more}");
         frequencies.iter().enumerate().map(run).collect::<String>()
     };
     let simulate = "[simulate]\nchannels = [\"force@1 [N]\", \"acc@1 [m/s^2]\"]\n";
-    let runs = of(&format!("force_dof = 1\nforce_n = {force:?}\n"));
+    let runs = runs_with(&format!("force_dof = 1\nforce_n = {force:?}\n"));
     let truth = folder.join(format!("level-{level}.toml"));
     let text = [&oscillator(STIFFNESS * (1.0 + shift) - 26_000.0), &joint, &runs, simulate].concat();
     std::fs::write(&truth, text).unwrap();
     run(&["simulate", "--noise", "0.01", "--seed", &level.to_string(), "--out"], &[folder, &truth]);
-    of(&format!("level = {}\n", level + 1))
+    runs_with(&format!("level = {}\n", level + 1))
 }
 
 /// The project of levels and frequencies is told both laws, and the cubic stiffness within a share.

@@ -175,8 +175,8 @@ fn friction_holds_its_own_force() {
                 let slope =
                     (friction.smooth_part(&p, v + step)[0] - friction.smooth_part(&p, v - step)[0]) / (2.0 * step);
                 assert!((slope - friction.smooth_part(&p, v)[1]).abs() < 1e-5 * (1.0 + slope.abs()), "{effect} {p:?}");
-                let of = |change: f64| friction.smooth_part(&moved(change), v)[0];
-                let by = (of(step) - of(-step)) / (2.0 * step);
+                let smooth_force = |change: f64| friction.smooth_part(&moved(change), v)[0];
+                let by = (smooth_force(step) - smooth_force(-step)) / (2.0 * step);
                 assert!((by - friction.smooth_part_by(&p, k, v)).abs() < 1e-5 * (1.0 + by.abs()), "{effect} {p:?} {k}");
             }
             for side in 0..2 {

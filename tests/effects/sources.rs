@@ -95,12 +95,12 @@ fn the_energy_of_a_chain_is_that_of_its_pairs() {
         (Effect::Hysteretic, vec![50.0]),
         (Effect::Maxwell, vec![1e4, 20.0]),
     ] {
-        let of = |rows: &[usize]| Source::known(effect, dofs(rows), &p).energy(omega, &x, 256).unwrap();
-        assert_close(of(&[0, 1, 2]), of(&[0, 1]) + of(&[1, 2]), 1e-13, effect.name());
-        assert_close(of(&[0, 1]), of(&[1, 0]), 1e-12, effect.name());
+        let energy_of = |rows: &[usize]| Source::known(effect, dofs(rows), &p).energy(omega, &x, 256).unwrap();
+        assert_close(energy_of(&[0, 1, 2]), energy_of(&[0, 1]) + energy_of(&[1, 2]), 1e-13, effect.name());
+        assert_close(energy_of(&[0, 1]), energy_of(&[1, 0]), 1e-12, effect.name());
         let relative: Vec<c64> = x(0).iter().zip(x(1)).map(|(a, b)| a - b).collect();
         let motion = Motion::new(omega, 0.0, &relative, 256);
-        assert_close(of(&[0, 1]), effect.law().unwrap().energy(&p, &motion), 1e-12, effect.name());
+        assert_close(energy_of(&[0, 1]), effect.law().unwrap().energy(&p, &motion), 1e-12, effect.name());
     }
     // Viscous, by hand: (T/2) sum_h c |h w D_h|^2 = pi w c sum_h h^2 |D_h|^2.
     let squares = 36e-8 + 1e-8 + 4.0 * 4e-8;

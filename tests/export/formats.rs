@@ -92,9 +92,9 @@ fn json_reads_back() {
     let (_folder, path, _) = exported(Format::Json, "c.json");
     let sample = Sample::beam();
     let document: serde_json::Value = serde_json::from_str(&text(&path)).unwrap();
-    let at = |name: &str, i: usize, j: usize| document["matrix"][name][i][j].as_f64().unwrap();
-    assert_eq!(Mat::from_fn(6, 6, |i, j| at("viscous", i, j)), sample.viscous);
-    assert_eq!(Mat::from_fn(6, 6, |i, j| at("hysteretic", i, j)), sample.others[1].1);
+    let entry = |name: &str, i: usize, j: usize| document["matrix"][name][i][j].as_f64().unwrap();
+    assert_eq!(Mat::from_fn(6, 6, |i, j| entry("viscous", i, j)), sample.viscous);
+    assert_eq!(Mat::from_fn(6, 6, |i, j| entry("hysteretic", i, j)), sample.others[1].1);
     assert_eq!(document["sources"][1]["dofs"], serde_json::json!(["3", "5"]));
     assert_eq!(document["sources"][0]["parameters"]["c"].as_f64(), Some(1.0 / 3.0));
 }
@@ -156,14 +156,14 @@ fn nastran_matrix_reads_back() {
     let mut column = 0;
     for line in text.lines().filter(|l| !l.starts_with('$')) {
         assert!(line.len() <= 72, "{line}");
-        let at = |k: usize| field(line, 8 + 16 * k, 16);
+        let card_field = |k: usize| field(line, 8 + 16 * k, 16);
         if line.starts_with("DMIG*") {
-            assert_eq!(at(0), "CDAMP");
-            column = dof_of(at(1).parse().unwrap(), at(2).parse().unwrap());
+            assert_eq!(card_field(0), "CDAMP");
+            column = dof_of(card_field(1).parse().unwrap(), card_field(2).parse().unwrap());
         } else if line.starts_with('*') {
-            let row = dof_of(at(0).parse().unwrap(), at(1).parse().unwrap());
-            read[(row, column)] = real(at(2));
-            read[(column, row)] = real(at(2));
+            let row = dof_of(card_field(0).parse().unwrap(), card_field(1).parse().unwrap());
+            read[(row, column)] = real(card_field(2));
+            read[(column, row)] = real(card_field(2));
         } else {
             assert_eq!(line.split_whitespace().collect::<Vec<_>>(), ["DMIG", "CDAMP", "0", "6", "2", "0"]);
         }

@@ -83,8 +83,9 @@ fn array(data: &[u8]) -> (String, Value) {
                 .chunks(length)
                 .map(|b| String::from_utf8(b.iter().copied().take_while(|&c| c != 0).collect()).unwrap())
                 .collect();
-            let one = |cursor: &mut Cursor| fields.iter().map(|f| (f.clone(), array(cursor.element().1).1)).collect();
-            Value::Structs((0..count).map(|_| one(&mut cursor)).collect())
+            let named_fields =
+                |cursor: &mut Cursor| fields.iter().map(|f| (f.clone(), array(cursor.element().1).1)).collect();
+            Value::Structs((0..count).map(|_| named_fields(&mut cursor)).collect())
         }
         other => panic!("class {other}"),
     };

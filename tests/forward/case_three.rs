@@ -101,8 +101,8 @@ fn runs(recorded: &[Recorded], seed: u64) -> Vec<Run> {
 fn six_places_are_found_in_noise_and_their_coefficients_within_five_per_cent() {
     let structure = cantilever(10);
     let recorded = stepped(&structure, [0.003, 0.009]);
-    let at = |effect| (0..20).step_by(2).map(move |dof| Source::candidate(effect, Place::Dofs(vec![dof])));
-    let candidates: Vec<Source> = at(Effect::Viscous).chain(at(Effect::Coulomb)).collect();
+    let candidates_of = |effect| (0..20).step_by(2).map(move |dof| Source::candidate(effect, Place::Dofs(vec![dof])));
+    let candidates: Vec<Source> = candidates_of(Effect::Viscous).chain(candidates_of(Effect::Coulomb)).collect();
     let settings = identify::Settings { max_sources: 6, ..identify::Settings::default() };
     let outcome = identify(&structure, &candidates, &runs(&recorded, 0), &settings, &Control::unattended()).unwrap();
     let mut found: Vec<(Source, f64)> = (outcome.accepted_step().sources.iter())

@@ -63,7 +63,7 @@ fn modes_damped_each_by_itself() {
         let excitation = Excitation::sine(omega, 2, c64::new(3.0, 0.0));
         let response = balanced(&structure, &sources, &excitation, &Settings::default());
         let factor = |mode: usize| factors.iter().find(|(m, _)| *m == mode).map_or(1.0, |(_, f)| *f);
-        let of = |dof: usize| {
+        let motion_of_dof = |dof: usize| {
             let term = |r: usize| {
                 let square = modes.omega[r].powi(2);
                 let z = c64::new(square - omega * omega, omega * factor(r) * (alpha + beta * square));
@@ -71,7 +71,7 @@ fn modes_damped_each_by_itself() {
             };
             (0..count).map(term).sum::<c64>()
         };
-        let motion: Vec<c64> = (0..count).map(of).collect();
+        let motion: Vec<c64> = (0..count).map(motion_of_dof).collect();
         for (dof, expected) in motion.iter().enumerate() {
             let found = response.amplitude(dof, 1);
             assert!((found - expected).norm() < 1e-9 * motion[1].norm(), "{count}, DOF {dof}: {found} {expected}");

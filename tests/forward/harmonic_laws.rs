@@ -92,8 +92,8 @@ fn fractional_elements_against_stepping_with_their_memory() {
             let response = balanced(&structure, &sources, &excitation, &Settings::default());
             let bare = balanced(&structure, &sources[..1], &excitation, &Settings::default());
             // The error falls with the square of the step: two steps give its limit.
-            let at = |steps: usize| stepped_fractional(&structure, beta, element, &excitation, steps);
-            let (coarse, fine) = (at(64), at(128));
+            let with_steps = |steps: usize| stepped_fractional(&structure, beta, element, &excitation, steps);
+            let (coarse, fine) = (with_steps(64), with_steps(128));
             let limit = Mat::from_fn(structure.len(), 1, |i, _| fine[i] + (fine[i] - coarse[i]) / 3.0);
             let error = difference(&response, &limit, 1);
             assert!(error < 1e-3, "{name}, order {order}: off by {error:.1e}");
@@ -130,8 +130,8 @@ fn hysteretic_elements_and_the_loss_factor_against_dashpots_in_time() {
 
 /// Energy that a force of amplitudes `force` takes out of a motion of amplitudes `motion` in a cycle.
 fn taken(force: &[c64], motion: impl Fn(usize) -> c64) -> f64 {
-    let of = |(i, f): (usize, &c64)| PI * (i + 1) as f64 * (f * motion(i + 1).conj()).im;
-    force.iter().enumerate().map(of).sum()
+    let energy_of_harmonic = |(i, f): (usize, &c64)| PI * (i + 1) as f64 * (f * motion(i + 1).conj()).im;
+    force.iter().enumerate().map(energy_of_harmonic).sum()
 }
 
 fn input(response: &Response, excitation: &Excitation) -> f64 {

@@ -126,8 +126,8 @@ fn derivatives_at_a_natural_frequency() {
         ]
     };
     let excitation = Excitation::sine(structure.modes().unwrap().omega[1], 4, c64::new(20.0, 0.0));
-    let at = |x: [f64; 3]| balanced(&structure, &sources(x), &excitation, &settings);
-    let (all, start) = (sources([1.0; 3]), at([1.0; 3]));
+    let response_with = |x: [f64; 3]| balanced(&structure, &sources(x), &excitation, &settings);
+    let (all, start) = (sources([1.0; 3]), response_with([1.0; 3]));
     let run = ForwardModel::new(&structure, &all).unwrap().at(excitation.omega);
     let unknowns: Vec<Unknown> = (0..3).map(|source| Unknown::Source { source, parameter: 0 }).collect();
     let derivatives =
@@ -137,7 +137,7 @@ fn derivatives_at_a_natural_frequency() {
         let moved = |sign: f64| {
             let mut x = [1.0; 3];
             x[k] += sign * step;
-            at(x)
+            response_with(x)
         };
         let (plus, minus) = (moved(1.0), moved(-1.0));
         for h in [1, 3] {

@@ -105,9 +105,9 @@ fn a_modal_model_stands_beside_the_modes_as_measured() {
 fn a_modal_model_among_imported_files_becomes_reference() {
     let folder = hammered("0.002", CHANNELS);
     write(folder.path(), &truth(folder.path()));
-    let at = |name: &str| folder.path().join(name).display().to_string();
+    let path = |name: &str| folder.path().join(name).display().to_string();
     let words =
-        ["dashpot", "import", &at("modes.uff"), &at("hammer.uff"), "--averages", "8", "--out", &at("made.toml")];
+        ["dashpot", "import", &path("modes.uff"), &path("hammer.uff"), "--averages", "8", "--out", &path("made.toml")];
     let said = answer(words.map(Into::into)).unwrap();
     assert!(said.contains("3 modes or operating shapes stand beside ours"), "{said}");
     let text = std::fs::read_to_string(folder.path().join("made.toml")).unwrap();

@@ -54,8 +54,8 @@ fn measured(folder: &Path, noise: f64, hysteretic: bool) -> Project {
     let mut sets = Vec::new();
     for drive in DRIVES {
         for sensor in 1..=MASSES {
-            let at = |k: usize| receptance(TAU * (5.0 + STEP_HZ * k as f64), [sensor, drive], hysteretic);
-            let clean: Vec<c64> = (0..LINES).map(at).collect();
+            let on_line = |k: usize| receptance(TAU * (5.0 + STEP_HZ * k as f64), [sensor, drive], hysteretic);
+            let clean: Vec<c64> = (0..LINES).map(on_line).collect();
             let size = noise / 2f64.sqrt() * clean.iter().map(|h| h.norm()).fold(0.0, f64::max);
             let values = clean.iter().map(|h| [h.re + size * gauss(), h.im + size * gauss()]).collect();
             let dofs = [sensor, drive].map(|mass| Dof::new(mass as i64, 3));
@@ -99,12 +99,17 @@ fn every_mode_is_right_to_one_per_cent_without_noise() {
         let path = folder.path().join("project.toml").display().to_string();
         let text = answer(["dashpot", "methods", "--json", path.as_str()].map(Into::into)).unwrap();
         let found: Value = serde_json::from_str(&text).unwrap();
-        let of = |name: &str| {
+        let modes_by = |name: &str| {
             let methods = found["methods"].as_array().unwrap();
             methods.iter().find(|method| method["method"] == name).map(|method| modes(&method["modes"])).unwrap()
         };
-        let lists =
-            [modes(&found["complex_modes"]), of("half-power"), of("circle-fit"), of("hysteresis-loop"), of("ibrahim")];
+        let lists = [
+            modes(&found["complex_modes"]),
+            modes_by("half-power"),
+            modes_by("circle-fit"),
+            modes_by("hysteresis-loop"),
+            modes_by("ibrahim"),
+        ];
         for (k, list) in lists.iter().enumerate() {
             assert_eq!(list.len(), MASSES, "{k}: {list:?}");
             for (j, (hz, ratio)) in list.iter().enumerate() {

@@ -10,12 +10,12 @@ use std::path::Path;
 fn samples(frequency_hz: f64) -> Vec<[f64; 3]> {
     let omega = TAU * frequency_hz;
     let (re, im) = (2.0 * (TAU * 21.0).powi(2) - 2.0 * omega * omega, 8.0 * omega);
-    let at = |i: i32| {
+    let sample = |i: i32| {
         let (sin, cos) = (omega * f64::from(i) / 1000.0).sin_cos();
         let displacement = 5.0 * (re * cos + im * sin) / (re * re + im * im);
         [5.0 * cos, displacement, -omega * omega * displacement]
     };
-    (0..800).map(at).collect()
+    (0..800).map(sample).collect()
 }
 
 /// Imports files of a folder, opens the project and identifies: the summary, the project and the coefficient found.

@@ -10,25 +10,25 @@ const BEAM: &str = "[project]\nformat = 1\n[structure]\nkind = \"beam\"\nlength 
 #[test]
 fn the_base_of_a_mapping_drives_the_model_as_that_of_a_record_does() {
     let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
+    let path = |name: &str| folder.path().join(name);
     let runs = "[[run]]\nfile = \"run.csv\"\nfrequency = 10.0\n";
     let simulated = format!(
         "{BEAM}{runs}base = \"z\"\nbase_m_s2 = 1.0\n[simulate]\nchannels = [\"base@z [m/s^2]\", \"acc@9 [m/s^2]\"]\n"
     );
-    std::fs::write(at("truth.toml"), simulated).unwrap();
-    let truth = at("truth.toml").display().to_string();
+    std::fs::write(path("truth.toml"), simulated).unwrap();
+    let truth = path("truth.toml").display().to_string();
     dashpot(&["simulate", &truth, "--out", &folder.path().display().to_string()]).unwrap();
-    let record = std::fs::read_to_string(at("run.csv")).unwrap();
+    let record = std::fs::read_to_string(path("run.csv")).unwrap();
     let renamed = record.replacen("base@z [m/s^2]", "Table [m/s^2]", 1).replacen("acc@9 [m/s^2]", "Tip [m/s^2]", 1);
-    std::fs::write(at("lab.csv"), renamed).unwrap();
+    std::fs::write(path("lab.csv"), renamed).unwrap();
     let map = |place: &str| {
         format!(
             "[[channel]]\nname = \"Table\"\nquantity = \"base\"\n{place}\n[[channel]]\nname = \"Tip\"\nquantity = \"acc\"\ndof = 9\n"
         )
     };
     let error = |name: &str, text: &str| {
-        std::fs::write(at(name), text).unwrap();
-        json(&["compare", "--json", &at(name).display().to_string()])["error"].as_f64().unwrap()
+        std::fs::write(path(name), text).unwrap();
+        json(&["compare", "--json", &path(name).display().to_string()])["error"].as_f64().unwrap()
     };
     let own = error("own.toml", &format!("{BEAM}{runs}"));
     let lab = runs.replace("run.csv", "lab.csv");

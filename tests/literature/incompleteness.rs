@@ -55,10 +55,10 @@ fn figures_3_12_and_3_13_from_one_call() {
 fn fewer_sensors_cost_the_inverse_most() {
     let structure = cantilever(10);
     let found = study(&structure, &[20, 10, 5], &[1, 3, 5, 10, 20]);
-    let at = |s: usize, method, m: f64| found.eps_c(s, method).into_iter().find(|p| p[0] == m).unwrap()[1];
+    let error_of = |s: usize, method, m: f64| found.eps_c(s, method).into_iter().find(|p| p[0] == m).unwrap()[1];
     for (s, inverse, lancaster) in [(0, 2.90, 29.8), (1, 21.3, 32.8)] {
-        assert!((at(s, Method::FrfInverse, 10.0) / inverse - 1.0).abs() < 0.005);
-        assert!((at(s, Method::Lancaster, 10.0) / lancaster - 1.0).abs() < 0.005);
+        assert!((error_of(s, Method::FrfInverse, 10.0) / inverse - 1.0).abs() < 0.005);
+        assert!((error_of(s, Method::Lancaster, 10.0) / lancaster - 1.0).abs() < 0.005);
     }
     // No more modes than sensors, unless every DOF has one.
     let most = |s: usize| found.cases.iter().filter(|c| c.sensors == s).map(|c| c.modes).max().unwrap();

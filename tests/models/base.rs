@@ -112,18 +112,18 @@ fn dashpots_are_found_on_a_shaker_table() {
 #[test]
 fn what_cannot_be_is_said() {
     let folder = tempfile::tempdir().unwrap();
-    let at = |text: &str| fs::write(folder.path().join("t.toml"), text).unwrap();
-    at(&one_mass("absolute", &recipe(&[3.0], "z")));
+    let write_model = |text: &str| fs::write(folder.path().join("t.toml"), text).unwrap();
+    write_model(&one_mass("absolute", &recipe(&[3.0], "z")));
     assert!(
         refused(&["simulate", "t.toml", "--out", "."], folder.path())
             .ends_with("no DOF of the structure moves along z; correct `base` of the run")
     );
-    at(&one_mass("absolut", &recipe(&[3.0], "x")));
+    write_model(&one_mass("absolut", &recipe(&[3.0], "x")));
     assert!(
         refused(&["simulate", "t.toml", "--out", "."], folder.path())
             .starts_with("t.toml:14: `response = \"absolut\"` is not understood")
     );
-    at(&one_mass("absolute", &recipe(&[3.0], "x").replace("base_m_s2 = 3.0\n", "")));
+    write_model(&one_mass("absolute", &recipe(&[3.0], "x").replace("base_m_s2 = 3.0\n", "")));
     assert!(
         refused(&["simulate", "t.toml", "--out", "."], folder.path()).contains("`base` is there without `base_m_s2`")
     );

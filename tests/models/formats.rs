@@ -151,10 +151,10 @@ fn damping_is_exported_in_the_directions_of_the_grid_points() {
     let damping = bulk.matrices.iter().find(|matrix| matrix.name == "CDAMP").unwrap().clone();
     assert_eq!(damping.dofs.as_ref().map(|dofs| dofs.iter().all(|dof| dof.node == 12)), Some(true));
     let basic = damping.in_basic("both.bdf", &bulk.geometry.turned).unwrap();
-    let of = |i: usize| basic.dofs.as_ref().unwrap()[i];
+    let basic_dof = |i: usize| basic.dofs.as_ref().unwrap()[i];
     for &(i, j, value) in &basic.entries {
-        let expected = if i == j && of(i).component == 3 { 2.0 } else { 0.0 };
-        assert!((value - expected).abs() < 1e-5, "{:?} {:?} {value}", of(i), of(j));
+        let expected = if i == j && basic_dof(i).component == 3 { 2.0 } else { 0.0 };
+        assert!((value - expected).abs() < 1e-5, "{:?} {:?} {value}", basic_dof(i), basic_dof(j));
     }
 }
 

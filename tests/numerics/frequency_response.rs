@@ -73,26 +73,26 @@ fn one_degree_of_freedom_at_its_resonance() {
     // |H(wn)| = 1 / (c wn), phase -90 degrees; mobility and accelerance follow.
     let structure = oscillator(2.0, 800.0);
     let z = DynamicStiffness::new(&structure, &[source(Effect::Viscous, &[0], &[4.0])]).unwrap();
-    let at = |q| direct(&z, 0, 0, &[20.0], q, &Control::unattended()).unwrap()[0];
-    assert!((at(Quantity::Receptance) - c64::new(0.0, -1.0 / 80.0)).norm() < 1e-15);
-    assert!((at(Quantity::Mobility) - c64::new(0.25, 0.0)).norm() < 1e-14);
-    assert!((at(Quantity::Accelerance) - c64::new(0.0, 5.0)).norm() < 1e-13);
+    let at_resonance = |q| direct(&z, 0, 0, &[20.0], q, &Control::unattended()).unwrap()[0];
+    assert!((at_resonance(Quantity::Receptance) - c64::new(0.0, -1.0 / 80.0)).norm() < 1e-15);
+    assert!((at_resonance(Quantity::Mobility) - c64::new(0.25, 0.0)).norm() < 1e-14);
+    assert!((at_resonance(Quantity::Accelerance) - c64::new(0.0, 5.0)).norm() < 1e-13);
 }
 
 #[test]
 fn half_power_points_give_the_damping_back() {
     let structure = oscillator(2.0, 800.0);
     let omega: Vec<f64> = (0..400).map(|k| 15.0 + 0.025 * f64::from(k)).collect();
-    let of = |source: Source| {
+    let half_power_of = |source: Source| {
         let z = DynamicStiffness::new(&structure, &[source]).unwrap();
         half_power(&omega, &direct(&z, 0, 0, &omega, Quantity::Receptance, &Control::unattended()).unwrap()).unwrap()
     };
     // Exact for hysteretic damping, at any loss factor; for viscous damping to second order in zeta.
-    let hysteretic = of(source(Effect::Hysteretic, &[0], &[800.0 * 0.07]));
+    let hysteretic = half_power_of(source(Effect::Hysteretic, &[0], &[800.0 * 0.07]));
     assert!((hysteretic.loss_factor - 0.07).abs() < 1e-10, "{hysteretic:?}");
     assert!((hysteretic.omega_peak - 20.0).abs() < 1e-9);
     let zeta = 0.02;
-    let viscous = of(source(Effect::Viscous, &[0], &[2.0 * zeta * 2.0 * 20.0]));
+    let viscous = half_power_of(source(Effect::Viscous, &[0], &[2.0 * zeta * 2.0 * 20.0]));
     let exact = zeta * (1.0 - zeta * zeta).sqrt() / (1.0 - 2.0 * zeta * zeta);
     assert!((viscous.damping_ratio() - exact).abs() < 1e-10, "{viscous:?}");
     assert!((viscous.omega_peak - 20.0 * (1.0 - 2.0 * zeta * zeta).sqrt()).abs() < 1e-9);

@@ -141,12 +141,12 @@ fn a_complete_beam_lacks_nothing() {
 
 /// The mean squared error of an exact model over its mean squared noise floor.
 fn over_floor(test: &Test, noise: f64, seeds: std::ops::Range<u64>) -> f64 {
-    let of = |run: &TransientRun| {
+    let squared_errors = |run: &TransientRun| {
         let records = Records::new(test.structure, test.truth, std::slice::from_ref(run)).unwrap();
         let found = compare_records(&records, &[], &Control::unattended()).unwrap();
         [found.error.powi(2), found.noise_floor.powi(2)]
     };
-    let all: Vec<[f64; 2]> = test.runs(noise, seeds).iter().map(of).collect();
+    let all: Vec<[f64; 2]> = test.runs(noise, seeds).iter().map(squared_errors).collect();
     let mean = |k: usize| all.iter().map(|pair| pair[k]).sum::<f64>() / all.len() as f64;
     mean(0) / mean(1)
 }

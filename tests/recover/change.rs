@@ -90,14 +90,14 @@ fn states_with_other_places_are_refused_in_one_line() {
     let far = [candidate(Effect::Viscous, &[16])];
     let (runs, bent) = (measured(&chain, 4.0), Rig::near_modes(&beam, 4, 1.0, 18, &[4, 10, 18]));
     let bent = with_noise(&bent.runs(&beam, &[source(Effect::Viscous, &[16], &[0.5])]), NOISE, 3);
-    let of = |structure, sources, runs| Condition {
+    let condition = |structure, sources, runs| Condition {
         structure,
         sources,
         measured: Measurements { runs, transient_runs: &[], ratios: &[] },
         settings: &settings,
     };
     let again = with_noise(&runs, NOISE, 4);
-    let states = [of(&chain, &sources[..], &again[..]), of(&beam, &far[..], &bent[..])];
+    let states = [condition(&chain, &sources[..], &again[..]), condition(&beam, &far[..], &bent[..])];
     let error = change(states, &Control::unattended()).unwrap_err();
     assert!(matches!(&error, ChangeError::NoDof { .. }), "{error}");
     assert!(error.to_string().contains("DOF \"17\"") && !error.to_string().contains('\n'));

@@ -37,9 +37,9 @@ fn from_the_start_screen_to_exported_matrices() {
     harness.get_by_label("Run 3");
     // A source is drawn between masses 1 and 3, and made forced, known, off, candidate by clicks.
     tab(&mut harness, "Pattern");
-    let at =
+    let place_of_dof =
         |h: &Harness<'_, App>, dof: &str| h.get_by_label_contains(&format!("DOF {dof}, translation")).rect().center();
-    let (one, three) = (at(&harness, "1"), at(&harness, "3"));
+    let (one, three) = (place_of_dof(&harness, "1"), place_of_dof(&harness, "3"));
     let before = places(&harness);
     drag(&mut harness, one, three);
     assert!(places(&harness).contains(&(Place::Dofs(vec![0, 2]), State::Candidate)));

@@ -36,7 +36,7 @@ fn sources_are_drawn_by_click_and_drag_and_taken_back() {
     harness.state_mut().view.law = Effect::Coulomb;
     harness.run_steps(3);
     let before = harness.state().document.as_ref().unwrap().project.sources.clone();
-    let at = |harness: &egui_kittest::Harness<'_, dashpot::window::App>, dof: &str| {
+    let place_of_dof = |harness: &egui_kittest::Harness<'_, dashpot::window::App>, dof: &str| {
         harness.get_by_label_contains(&format!("DOF {dof}, translation")).rect().center()
     };
 
@@ -54,7 +54,7 @@ fn sources_are_drawn_by_click_and_drag_and_taken_back() {
     assert_eq!(drawn(&harness).len(), before.len() + 1);
     assert!(harness.query_all_by_label_contains("already drawn").count() > 0);
 
-    let (from, to) = (at(&harness, "1"), at(&harness, "5"));
+    let (from, to) = (place_of_dof(&harness, "1"), place_of_dof(&harness, "5"));
     drag(&mut harness, from, to);
     assert!(drawn(&harness).iter().any(|s| s.place == Place::Dofs(vec![0, 4])), "{:?}", drawn(&harness));
 

@@ -84,10 +84,11 @@ fn table(matrix: &Mat<f64>) -> String {
 pub(crate) fn wing() -> Sample {
     let p = parameters();
     let structure = p.build(&[]).unwrap();
-    let at = |i: usize, j: usize| row(i, j).unwrap();
+    let dof = |i: usize, j: usize| row(i, j).unwrap();
     let dashpot = |dofs: Vec<usize>, c: f64| Source::known(Effect::Viscous, Place::Dofs(dofs), &[c]);
-    let truth = [dashpot(vec![at(8, 2)], 3.0), dashpot(vec![at(4, 0)], 8.0), dashpot(vec![at(6, 0), at(6, 2)], 5.0)];
-    let across = [at(6, 0), at(6, 2)].map(|d| structure.label(d).to_owned());
+    let truth =
+        [dashpot(vec![dof(8, 2)], 3.0), dashpot(vec![dof(4, 0)], 8.0), dashpot(vec![dof(6, 0), dof(6, 2)], 5.0)];
+    let across = [dof(6, 0), dof(6, 2)].map(|d| structure.label(d).to_owned());
     let head = format!(
         "[project]\nformat = 1\ntitle = \"Test wing\"\n[structure]\nkind = \"matrices\"\nmass = \"m.csv\"\n\
          stiffness = \"k.csv\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.csv\"\nlines = \"lines.csv\"\n\
@@ -96,11 +97,11 @@ pub(crate) fn wing() -> Sample {
          [[source]]\nlaw = \"viscous\"\ndofs = [\"{}\"]\nstate = \"candidate\"\n",
         across[0],
         across[1],
-        structure.label(at(8, 2)),
-        structure.label(at(4, 0))
+        structure.label(dof(8, 2)),
+        structure.label(dof(4, 0))
     );
-    let sensors = [at(8, 2), at(8, 0), at(5, 1), at(6, 0), at(6, 2), at(4, 0)];
-    let sample = write(&head, &structure, &truth, at(8, 2), &sensors);
+    let sensors = [dof(8, 2), dof(8, 0), dof(5, 1), dof(6, 0), dof(6, 2), dof(4, 0)];
+    let sample = write(&head, &structure, &truth, dof(8, 2), &sensors);
     let mut nodes = "node,x,y,z\n".to_owned();
     for node in p.nodes.iter().flatten() {
         let [x, y, z] = node.position;

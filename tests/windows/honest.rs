@@ -24,11 +24,11 @@ fn identified(case: &Case, clean: &TestRecord, noise: f64, seed: u64) -> Outcome
 /// Coefficient and deviation of each true source; none where others came out.
 fn found(case: &Case, outcome: &Outcome) -> Option<Vec<(f64, f64)>> {
     let sources = &outcome.accepted_step().sources;
-    let of = |truth: &Source| {
+    let estimate_of = |truth: &Source| {
         let estimate = sources.iter().find(|e| case.candidates[e.source].is_same(truth))?;
         Some((estimate.coefficient, estimate.deviation))
     };
-    let all: Option<Vec<(f64, f64)>> = case.truth.iter().map(of).collect();
+    let all: Option<Vec<(f64, f64)>> = case.truth.iter().map(estimate_of).collect();
     all.filter(|_| sources.len() == case.truth.len())
 }
 

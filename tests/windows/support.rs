@@ -53,10 +53,10 @@ impl Case {
 }
 
 fn candidates(effects: &[Effect], dofs: &[usize]) -> Vec<Source> {
-    let at = |&effect: &Effect| {
+    let candidates_of = |&effect: &Effect| {
         dofs.iter().map(move |&dof| Source::candidate(effect, Place::Dofs(vec![dof]))).collect::<Vec<Source>>()
     };
-    effects.iter().flat_map(at).collect()
+    effects.iter().flat_map(candidates_of).collect()
 }
 
 fn forced(sources: Vec<Source>) -> Vec<Source> {
