@@ -48,3 +48,14 @@ fn a_stray_text_between_rows_is_named_with_its_line() {
     fs::write(&file, format!("Time [s],Force 1 [N],Acc 1 [g]\n{}Second\n{}", rows(0.0), rows(0.0))).unwrap();
     assert!(dashpot(&["contents", &file]).unwrap().contains("2: time"));
 }
+
+#[test]
+fn a_number_that_no_sensor_reads_is_refused_with_its_channel_and_sample() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = tested(folder.path());
+    changed(folder.path(), |n, line| if n == 52 { with_cell(line, 4, "1e300") } else { format!("{line}\n") });
+    let said = dashpot(&["compare", &project]).unwrap_err();
+    let expected =
+        "channel acc@10z: sample 51 is 1e300 (SI units), more than any sensor reads; mend the number or remove the row";
+    assert!(said.contains(&format!("r1.csv, {expected}")), "{said}");
+}
