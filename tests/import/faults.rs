@@ -59,3 +59,47 @@ fn a_number_that_no_sensor_reads_is_refused_with_its_channel_and_sample() {
         "channel acc@10z: sample 51 is 1e300 (SI units), more than any sensor reads; mend the number or remove the row";
     assert!(said.contains(&format!("r1.csv, {expected}")), "{said}");
 }
+
+/// What `compare` says of `r1.csv`: whether it is used, its channels, and the flags in words.
+fn compared(project: &str) -> (bool, usize, String) {
+    let found = json(&["compare", "--json", project]);
+    let run = found["runs"].as_array().unwrap().iter().find(|run| run["file"] == "r1.csv").unwrap().clone();
+    let said = dashpot(&["compare", project]).unwrap();
+    (run["used"].as_bool().unwrap(), run["channels"].as_array().unwrap().len(), said)
+}
+
+#[test]
+fn a_run_without_force_is_left_out_unless_it_is_insisted_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = tested(folder.path());
+    changed(folder.path(), |n, line| if n > 1 { with_cell(line, 1, "0") } else { format!("{line}\n") });
+    let (used, _, said) = compared(&project);
+    assert!(!used && said.contains("r1.csv: left out, dead-channel: force@10z does not move at all"), "{said}");
+    let found = json(&["compare", "--json", &project]);
+    assert!(found["error"].as_f64().unwrap() < 0.01, "{}", found["error"]);
+    let identified = json(&["identify", "--json", &project]);
+    assert!(
+        identified["warnings"].to_string().contains("r1.csv: its force is zero, so it is left out"),
+        "{identified}"
+    );
+    let text = fs::read_to_string(&project).unwrap();
+    fs::write(&project, text.replace("file = \"r1.csv\"\n", "file = \"r1.csv\"\nuse = true\n")).unwrap();
+    assert!(compared(&project).0);
+}
+
+#[test]
+fn a_sensor_that_stands_still_is_left_out_of_its_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = tested(folder.path());
+    changed(folder.path(), |n, line| if n > 1 { with_cell(line, 3, "0.25") } else { format!("{line}\n") });
+    let (used, channels, said) = compared(&project);
+    assert_eq!((used, channels), (true, 2), "{said}");
+    let expected =
+        "r1.csv: dead-channel: acc@8z does not move at all: the channel is left out (`use = true` at the run keeps it)";
+    assert!(said.contains(expected), "{said}");
+    let found = json(&["compare", "--json", &project]);
+    assert!(found["error"].as_f64().unwrap() < 0.01, "{}", found["error"]);
+    let text = fs::read_to_string(&project).unwrap();
+    fs::write(&project, text.replace("file = \"r1.csv\"\n", "file = \"r1.csv\"\nuse = true\n")).unwrap();
+    assert_eq!(compared(&project).1, 3);
+}
