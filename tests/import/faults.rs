@@ -103,3 +103,21 @@ fn a_sensor_that_stands_still_is_left_out_of_its_run() {
     fs::write(&project, text.replace("file = \"r1.csv\"\n", "file = \"r1.csv\"\nuse = true\n")).unwrap();
     assert_eq!(compared(&project).1, 3);
 }
+
+#[test]
+fn the_table_under_a_chain_moves_along_its_axis() {
+    let folder = tempfile::tempdir().unwrap();
+    let wave = |t: f64, size: f64, phase: f64| size * (40.0 * t + phase).sin();
+    let row = |i: i32| {
+        let t = f64::from(i) / 500.0;
+        format!("{t},{},{},{}\n", wave(t, 1.0, 0.0), wave(t, 1.4, 0.1), wave(t, 1.7, 0.2))
+    };
+    let rows: String = (0..1500).map(row).collect();
+    let file = folder.path().join("quake.csv");
+    fs::write(&file, format!("Time [s],Table acc [m/s^2],Floor 1 acc [m/s^2],Floor 2 acc [m/s^2]\n{rows}")).unwrap();
+    let chain = "[base]\nresponse = \"absolute\"\n[structure]\nkind = \"chain\"\nmasses = [2.0, 2.0]\n\
+                 ground_stiffness = [9e4, 0.0]\ncoupling_stiffness = [9e4]\n";
+    let (said, project) = onto(folder.path(), &[file.display().to_string()], chain).unwrap();
+    assert!(project.contains("quantity = \"base\"\ndof = \"x\""), "{project}");
+    assert!(said.contains("base@x: the model moves along x only: so does its base"), "{said}");
+}

@@ -20,6 +20,12 @@ const TIMES: &str = "time of ";
 /// How an assumption begins that a force acts at the first motion, whose DOF follows.
 pub const FORCE_WITHOUT_PLACE: &str = "the file says no DOF: it is taken to act at DOF";
 
+/// How it is said that a channel has another rate than the others, or another length.
+const OTHER_RATE: &str = "is sampled at another rate";
+const OTHER_LENGTH: &str = "where the others have";
+/// How an assumption ends that the base moves in a direction which the file does not say.
+pub(crate) const DIRECTION_ASSUMED: &str = " is assumed";
+
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
@@ -150,7 +156,7 @@ fn take_for_base(drafts: &mut [Draft<'_>]) {
     draft.placed = true;
     draft.assumed.push("by its name the motion of the base, and no force is measured".to_owned());
     if said.is_none() {
-        draft.assumed.push("the file says no direction: z is assumed".to_owned());
+        draft.assumed.push(format!("the file says no direction: z{DIRECTION_ASSUMED}"));
     }
 }
 
