@@ -105,6 +105,18 @@ fn a_sensor_that_stands_still_is_left_out_of_its_run() {
 }
 
 #[test]
+fn the_template_is_the_mapping_that_import_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    tested(folder.path());
+    let [file, map] = ["r0.csv", "model.toml"].map(|name| folder.path().join(name).display().to_string());
+    let proposed = dashpot(&["import", &file, "--map", &map, "--propose"]).unwrap();
+    let project = fs::read_to_string(folder.path().join("p.toml")).unwrap();
+    for place in ["dof = \"4z\"", "dof = \"8z\"", "dof = \"10z\""] {
+        assert!(proposed.contains(place) && project.contains(place), "{place}: {proposed}\n{project}");
+    }
+}
+
+#[test]
 fn the_table_under_a_chain_moves_along_its_axis() {
     let folder = tempfile::tempdir().unwrap();
     let wave = |t: f64, size: f64, phase: f64| size * (40.0 * t + phase).sin();
