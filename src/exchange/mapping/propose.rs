@@ -323,10 +323,24 @@ fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Opt
         "mv" | "millivolt" | "millivolts" => Some(1e-3),
         "uv" | "µv" => Some(1e-6),
         _ => None,
+/// The sensitivity that an attribute states, however it is spelt: `Sensitivity` = `100 mV/g`, `sensitivity (mV/g)` = `100`.
+fn stated_sensitivity(channel: &Channel) -> Option<(f64, String, String)> {
+    let of_sensor = |name: &str| {
+        let lower = name.trim().to_lowercase();
+        ["sensitivity", "sensor sensitivity", "sensor_sensitivity", "empfindlichkeit"]
+            .iter()
+            .any(|w| lower.starts_with(w))
+    };
+    let read = |(name, value): &(String, String)| {
+        let unit = name.split_once(['(', '[']).map_or("", |(_, unit)| unit);
+        sensitivity(value).or_else(|| sensitivity(&format!("{} {unit}", value.trim())))
+    };
+    channel.attributes.iter().filter(|(name, _)| of_sensor(name)).find_map(read)
+}
+
     };
     let own = volts(&channel.unit)?;
-    let (value, over, under) =
-        channel.attribute("sensitivity").and_then(sensitivity).or_else(|| sensitivity(&channel.name))?;
+    let (value, over, under) = stated_sensitivity(channel).or_else(|| sensitivity(&channel.name))?;
     let (unit, factor) = (LabUnit::from_name(&under)?, own / (value * volts(&over)?));
     let (label, sign) = place.filter(|_| sensitivity(&channel.name).is_none()).unwrap_or_else(|| {
         // The digits of the sensitivity are no place.
