@@ -105,6 +105,28 @@ fn a_sensor_that_stands_still_is_left_out_of_its_run() {
 }
 
 #[test]
+fn rows_out_of_order_and_files_that_were_cut_off_are_told_by_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = tested(folder.path());
+    let path = folder.path().join("r1.csv");
+    let good = fs::read_to_string(&path).unwrap();
+    let mut lines: Vec<&str> = good.lines().collect();
+    lines.swap(100, 101);
+    fs::write(&path, lines.join("\n")).unwrap();
+    let said = dashpot(&["compare", &project]).unwrap_err();
+    assert!(
+        said.contains("r1.csv: the time goes back in line 102: ") && said.contains("sort the rows by time"),
+        "{said}"
+    );
+    let cut: Vec<&str> = good.lines().take(150).collect();
+    let last: Vec<&str> = cut[149].split(',').take(3).collect();
+    fs::write(&path, format!("{}\n{}", cut[..149].join("\n"), last.join(","))).unwrap();
+    let said = dashpot(&["compare", &project]).unwrap_err();
+    let expected = "r1.csv: the file ends in line 150, which has 3 of 5 cells: it was cut off; copy or export it again";
+    assert!(said.contains(expected), "{said}");
+}
+
+#[test]
 fn the_template_is_the_mapping_that_import_writes() {
     let folder = tempfile::tempdir().unwrap();
     tested(folder.path());

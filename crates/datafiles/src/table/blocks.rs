@@ -86,6 +86,8 @@ impl Blocks {
         });
         let cells = cells.get(block.skip..).unwrap_or_default();
         let row = block.rows;
+        block.lines = [if row == 0 { line } else { block.lines[0] }, line];
+        block.last_width = cells.len();
         for (i, column) in block.columns.iter_mut().enumerate() {
             column.push(cells.get(i).unwrap_or(&Cell::Empty), row);
         }
@@ -152,8 +154,6 @@ impl Blocks {
         Ok(())
     }
 
-    /// Keeps a line of the header.
-    fn remark(&mut self, line: HeaderLine) {
     /// Refuses a row of numbers that goes on where the block before ended, with nothing but single words between them, such
     /// as `Overload`: taken for two tables, the record would lose all that follows.
     fn not_torn(&self, cells: &[Cell]) -> Read<()> {
@@ -189,6 +189,8 @@ impl Blocks {
         ))
     }
 
+    /// Keeps a line of the header.
+    fn remark(&mut self, line: HeaderLine) {
         if self.header.len() >= MOST_HEADER {
             self.header.remove(MOST_HEADER / 2);
             self.lost_header += 1;
