@@ -155,3 +155,22 @@ fn the_table_under_a_chain_moves_along_its_axis() {
     assert!(project.contains("quantity = \"base\"\ndof = \"x\""), "{project}");
     assert!(said.contains("base@x: the model moves along x only: so does its base"), "{said}");
 }
+
+#[test]
+fn levels_of_a_table_of_amplitudes_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let row = |(i, level): (i32, i32)| format!("{level};{};{level};{};{}\n", 20 + i, 3 + i, 100 - i);
+    let rows: String = [1, 3].into_iter().flat_map(|level| (0..6).map(move |i| (i, level))).map(row).collect();
+    let table = format!("Level;Frequency [Hz];Force N4 [N];Acc N4 [m/s^2];Phase Acc N4 [deg]\n{rows}");
+    let (said, project) = imported(folder.path(), "steps.csv", &table, &[]);
+    assert!(said.contains("12 runs in 1 table at 2 levels") && !said.contains("not mapped"), "{said}");
+    assert!(!project.contains("Not mapped"), "{project}");
+    let path = folder.path().join("project.toml");
+    let loaded = dashpot::exchange::project::load(&path, &dashpot::control::Control::unattended()).unwrap();
+    let levels: Vec<_> = loaded.runs.iter().map(|run| run.level).collect();
+    assert_eq!((levels[0], levels[5], levels[6], levels.len()), (Some(1), Some(1), Some(3), 12));
+    let broken = table.replace("\n3;21;", "\n2.5;21;");
+    fs::write(folder.path().join("steps.csv"), broken).unwrap();
+    let said = dashpot(&["identify", &path.display().to_string()]).unwrap_err();
+    assert!(said.contains("channel \"Level\": row 8 is 2.5, and levels are whole numbers"), "{said}");
+}
