@@ -174,3 +174,18 @@ fn levels_of_a_table_of_amplitudes_are_kept() {
     let said = dashpot(&["identify", &path.display().to_string()]).unwrap_err();
     assert!(said.contains("channel \"Level\": row 8 is 2.5, and levels are whole numbers"), "{said}");
 }
+
+#[test]
+fn a_force_and_a_motion_of_two_rates_are_no_project_of_a_force_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |count: i32, rate: f64| -> String {
+        (0..count).map(|i| format!("{};{}\n", f64::from(i) / rate, (f64::from(i) / rate * 60.0).sin())).collect()
+    };
+    let text = format!("Time [s];Force 5 [N]\n{}\nTime [s];Acc 5 [g]\n{}", rows(2000, 500.0), rows(400, 100.0));
+    let file = folder.path().join("rates.csv").display().to_string();
+    fs::write(&file, text).unwrap();
+    let out = folder.path().join("p.toml");
+    let said = dashpot(&["import", &file, "--out", &out.display().to_string()]).unwrap_err();
+    assert!(said.contains("\"Acc 5\" and the force \"Force 5\" are not recorded together"), "{said}");
+    assert!(said.contains("export all channels at one rate") && !out.exists(), "{said}");
+}

@@ -144,6 +144,14 @@ fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
         let why = refusal(open(&request.files[0])?.contents(), &mapping.left);
         return Err(ImportError::of(&request.files[0], why));
     }
+    if let Some((name, why)) = mapping.motion_of_another_rate() {
+        let force = &mapping.channels[0].name;
+        let problem = format!(
+            "\"{name}\" and the force \"{force}\" are not recorded together: {why}; record or export all channels at one rate, \
+             filtered before samples are left out"
+        );
+        return Err(ImportError::of(&request.files[0], problem));
+    }
     Ok(mapping)
 }
 

@@ -165,6 +165,13 @@ impl Proposal {
         self.left.push((channel.name.clone(), reason.to_owned()));
     }
 
+    /// The channel of motion that is left out since it is not recorded at the rate of the forces, where they alone are mapped.
+    pub(crate) fn motion_of_another_rate(&self) -> Option<&(String, String)> {
+        let forces = !self.channels.is_empty() && self.channels.iter().all(|table| table.quantity == Quantity::Force);
+        let uneven = |why: &str| why.contains(OTHER_RATE) || why.contains(OTHER_LENGTH);
+        self.left.iter().find(|(_, why)| forces && uneven(why))
+    }
+
     /// Keeps the channels of the length and step that most of them have: those of a run share their times.
     fn of_one_length<'a>(&mut self, drafts: Vec<Draft<'a>>) -> Vec<Draft<'a>> {
         let times = |draft: &Draft<'_>| (draft.channel.count, draft.channel.axis.step().map(f64::to_bits));
@@ -176,8 +183,8 @@ impl Proposal {
         let (kept, others): (Vec<_>, Vec<_>) = drafts.into_iter().partition(|draft| times(draft) == most);
         for draft in others {
             let reason = match (draft.channel.count, most.0) {
-                (own, most) if own == most => "it is sampled at another rate than the others".to_owned(),
-                (own, most) => format!("it has {own} values where the others have {most}"),
+                (own, most) if own == most => format!("it {OTHER_RATE} than the others"),
+                (own, most) => format!("it has {own} values {OTHER_LENGTH} {most}"),
             };
             self.leave(draft.channel, &reason);
         }
@@ -316,13 +323,6 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
     Ok(draft)
 }
 
-/// A channel in volts whose name or metadata state its sensitivity, such as 100 mV/g: its factor is the inverse.
-fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Option<i64>)>) -> Option<Draft<'_>> {
-    let volts = |unit: &str| match unit.trim().to_lowercase().as_str() {
-        "v" | "volt" | "volts" => Some(1.0),
-        "mv" | "millivolt" | "millivolts" => Some(1e-3),
-        "uv" | "µv" => Some(1e-6),
-        _ => None,
 /// The sensitivity that an attribute states, however it is spelt: `Sensitivity` = `100 mV/g`, `sensitivity (mV/g)` = `100`.
 fn stated_sensitivity(channel: &Channel) -> Option<(f64, String, String)> {
     let of_sensor = |name: &str| {
@@ -338,6 +338,13 @@ fn stated_sensitivity(channel: &Channel) -> Option<(f64, String, String)> {
     channel.attributes.iter().filter(|(name, _)| of_sensor(name)).find_map(read)
 }
 
+/// A channel in volts whose name or metadata state its sensitivity, such as 100 mV/g: its factor is the inverse.
+fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Option<i64>)>) -> Option<Draft<'_>> {
+    let volts = |unit: &str| match unit.trim().to_lowercase().as_str() {
+        "v" | "volt" | "volts" => Some(1.0),
+        "mv" | "millivolt" | "millivolts" => Some(1e-3),
+        "uv" | "µv" => Some(1e-6),
+        _ => None,
     };
     let own = volts(&channel.unit)?;
     let (value, over, under) = stated_sensitivity(channel).or_else(|| sensitivity(&channel.name))?;
