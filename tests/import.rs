@@ -7,6 +7,8 @@ mod bad;
 mod benchmarks;
 #[path = "import/dialects.rs"]
 mod dialects;
+#[path = "import/faults.rs"]
+mod faults;
 #[path = "import/files.rs"]
 mod files;
 #[path = "import/laboratories.rs"]

@@ -7,12 +7,14 @@ use super::run_flags::{self, flags};
 use super::table::{number, table};
 use super::{identified, reduction};
 use crate::control::Control;
+use crate::diagnosis::compare::Unpredicted;
 use crate::diagnosis::records::RecordComparison;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison, RunComparison};
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
-use crate::diagnosis::{Comparison, compare};
+
+use crate::diagnosis::{Comparison, DiagnosisError, Problem, compare};
 use crate::exchange::{Project, project::load};
 use crate::session::validation::{only_records, problem};
 use crate::session::workers::Threads;
@@ -39,7 +41,7 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let taken = identified::take_over(&mut project, arguments.identified, &arguments.file, &control)?;
     let comparison =
         compare(&problem(&project), &[], &control).with_context(|| arguments.file.display().to_string())?;
-    let reading = detuning(&problem(&project), &control).with_context(|| arguments.file.display().to_string())?;
+    let reading = reading(&project, &comparison, &control).with_context(|| arguments.file.display().to_string())?;
     if arguments.json {
         let mut document = document(&project, &comparison);
         document["reduction"] = reduction::document(&project.structure);
@@ -66,6 +68,14 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let records = records.map_or_else(String::new, |r| super::records::text(&project, &r));
     let reduced = reduction::text(&project.structure);
     Ok(format!("{}{reduced}{words}{}{records}", text(&project, &comparison), run_flags::text(&project)))
+}
+
+/// Whether the model is detuned, told by the runs that it predicts.
+fn reading(project: &Project, comparison: &Comparison, control: &Control) -> Result<Option<Detuning>, DiagnosisError> {
+    let mut runs = project.runs.clone();
+    comparison.unpredicted.iter().for_each(|run| runs[run.index].enabled = false);
+    let found = detuning(&Problem { runs: &runs, ..problem(project) }, control)?;
+    Ok(found.map(|reading| reading.beside(comparison.error, comparison.noise_floor)))
 }
 
 /// A project that holds nothing but records that are not steady.
@@ -156,11 +166,16 @@ fn document(project: &Project, comparison: &Comparison) -> Value {
         "noise_floor": comparison.noise_floor,
         "energy_error": comparison.energy_error,
         "runs": runs,
+        "unpredicted": comparison.unpredicted.iter().map(|run| named(project, run)).collect::<Vec<_>>(),
         "levels": groups("level", &comparison.levels),
         "channels": groups("channel", &comparison.channels),
         "harmonics": groups("harmonic", &comparison.harmonics),
         "whiteness": comparison.whiteness.iter().map(whiteness).collect::<Vec<_>>(),
     })
+}
+
+fn named(project: &Project, run: &Unpredicted) -> Value {
+    json!({"file": project.runs[run.index].file, "reason": run.reason})
 }
 
 /// Errors by level, channel or harmonic.
@@ -194,12 +209,15 @@ fn text(project: &Project, comparison: &Comparison) -> String {
     }
     let parts = [("level", &comparison.levels), ("channel", &comparison.channels), ("harmonic", &comparison.harmonics)];
     let parts: String = parts.into_iter().map(|(name, groups)| part(name, groups)).collect();
+    let without =
+        |run: &Unpredicted| format!("{}: not predicted, left out: {}\n", project.runs[run.index].file, run.reason);
+    let unpredicted: String = comparison.unpredicted.iter().map(without).collect();
     let lead = match project.structure.matrices() {
         Some(_) => "",
         None => "Without mass and stiffness no response can be predicted: energies are compared.\n",
     };
     format!(
-        "{}\n{lead}\n{}{parts}\nerror of the {} {} %, noise floor {} %, energy error {} %\n{}",
+        "{}\n{lead}\n{}{unpredicted}{parts}\nerror of the {} {} %, noise floor {} %, energy error {} %\n{}",
         project.title,
         table(&rows),
         measure(&project.structure),

@@ -30,8 +30,10 @@ pub struct Comparison {
     pub noise_floor: f64,
     /// Root mean square of the energy errors of the used runs.
     pub energy_error: f64,
-    /// Every run in the order of the project.
+    /// Every run that the model predicts, in the order of the project.
     pub runs: Vec<RunComparison>,
+    /// Runs for which the model has no response, with the reason; the errors are those of the others.
+    pub unpredicted: Vec<Unpredicted>,
     /// By the level of the force: the labels of the runs, or the amplitude of the force where they have none.
     pub levels: Vec<Group>,
     /// By channel; none for `points`.
@@ -40,6 +42,42 @@ pub struct Comparison {
     pub harmonics: Vec<Group>,
     /// Whether what is left depends on anything; none for `points`.
     pub whiteness: Vec<Whiteness>,
+}
+
+/// A run for which the model has no response.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unpredicted {
+    /// Number of the run.
+    pub index: usize,
+    /// Why, in one sentence.
+    pub reason: String,
+}
+
+/// Sorts the runs that were compared from those for which there is no response.
+///
+/// # Errors
+/// Where no run that is used has one: why the first has none.
+fn predicted<T>(
+    compared: Vec<(usize, Result<(RunComparison, T), DiagnosisError>)>,
+) -> Result<(Vec<RunComparison>, Vec<T>, Vec<Unpredicted>), DiagnosisError> {
+    let (mut runs, mut left, mut unpredicted, mut first) = (Vec::new(), Vec::new(), Vec::new(), None);
+    for (index, one) in compared {
+        match one {
+            Ok((run, own)) => {
+                runs.push(run);
+                left.push(own);
+            }
+            Err(DiagnosisError::Response { file, reason }) => {
+                unpredicted.push(Unpredicted { index, reason: reason.to_string() });
+                first.get_or_insert(DiagnosisError::Response { file, reason });
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    match first.filter(|_| runs.iter().all(|run| !run.used)) {
+        Some(error) => Err(error),
+        None => Ok((runs, left, unpredicted)),
+    }
 }
 
 /// Compares the model of `problem`, with `effects` added to its known sources, with the measurement.
@@ -84,10 +122,9 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
         control.report((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / data.runs.len() as f64);
         Ok((RunComparison { branch, ..of_run(run, &prediction, &noise, used, energy) }, left))
     };
-    let compared = control.map(data.runs.len(), compare_run).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let (runs, left): (Vec<RunComparison>, Vec<Vec<Left>>) = compared.into_iter().unzip();
-    let left = left.concat();
-    Ok(Comparison { whiteness: whiteness(&left), ..summary(runs, &levels) })
+    let numbers = data.runs.iter().map(|run| run.index);
+    let (runs, left, unpredicted) = predicted(numbers.zip(control.map(data.runs.len(), compare_run)).collect())?;
+    Ok(Comparison { whiteness: whiteness(&left.concat()), unpredicted, ..summary(runs, &levels) })
 }
 
 /// Runs whose frequencies differ by less than this share are of one frequency.
@@ -156,7 +193,8 @@ fn summary(runs: Vec<RunComparison>, levels: &Levels) -> Comparison {
     let energy_error = root_mean_square(&energies);
     let (channels, harmonics) = (by_channel(&runs), by_harmonic(&runs));
     let levels = by_level(&runs, |run| levels.names[run.index].clone());
-    Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness: Vec::new() }
+    let (whiteness, unpredicted) = (Vec::new(), Vec::new());
+    Comparison { error, noise_floor, energy_error, runs, unpredicted, levels, channels, harmonics, whiteness }
 }
 
 /// For `points`: errors are those of the energy.
@@ -186,6 +224,6 @@ fn of_energies(problem: &Problem, energies: &[PointsEnergy]) -> Result<Compariso
     let error = root_mean_square(&errors);
     let levels = by_level(&runs, |run| levels.names[run.index].clone());
     let (noise_floor, channels, harmonics) = (root_mean_square(&floors), Vec::new(), Vec::new());
-    let whiteness = Vec::new();
-    Ok(Comparison { error, noise_floor, energy_error: error, runs, levels, channels, harmonics, whiteness })
+    let (whiteness, unpredicted, energy_error) = (Vec::new(), Vec::new(), error);
+    Ok(Comparison { error, noise_floor, energy_error, runs, unpredicted, levels, channels, harmonics, whiteness })
 }

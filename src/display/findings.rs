@@ -91,10 +91,16 @@ pub fn next_test(structure: &Structure, test: &NextTest) -> String {
     }
 }
 
-/// That a model with this error explains the data.
+/// An error that is larger than the noise floor by less than this factor is that of noise: the floor is a mean, noise scatters.
+const ABOUT: f64 = 1.1;
+
+/// What is said of a model with this error to which nothing is to be added.
 pub fn explained(error: f64, noise_floor: f64) -> String {
-    let (error, floor) = (in_words(error), format::percent(noise_floor));
-    format!("Its error of {error} is within what noise alone makes ({floor}). Nothing more is suggested.")
+    let (words, floor) = (in_words(error), format::percent(noise_floor));
+    if error <= noise_floor * ABOUT {
+        return format!("Its error of {words} is within what noise alone makes ({floor}). Nothing more is suggested.");
+    }
+    format!("Its error of {words} is more than noise alone makes ({floor}), but nothing more is suggested.")
 }
 
 /// The verdict as a sentence.
@@ -213,7 +219,7 @@ pub fn change(correction: &Correction) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::{Added, Estimated, Scatter, evidence, spread_of_runs};
+    use super::{Added, Estimated, Scatter, evidence, explained, spread_of_runs};
     use crate::diagnosis::updating::scatter::RunScatter;
     use crate::display::units::{Force, Frequency, Units, choose};
     use crate::effects::{Effect, Place, Source};
@@ -235,6 +241,17 @@ mod tests {
         assert_eq!((spread.run, spread.most), (2, 5e-4));
         assert!((spread.shift - (0.44e-6_f64 / 6.0).sqrt()).abs() < 1e-12, "{}", spread.shift);
         assert_eq!(spread_of_runs(&scatter(&shifts[..2], 1e-6)), None, "two runs are no scatter");
+    }
+
+    #[test]
+    fn only_an_error_within_the_noise_is_said_to_be_within_it() {
+        let within = explained(0.0156, 0.0156);
+        assert_eq!(within, "Its error of 1.56 % is within what noise alone makes (1.56 %). Nothing more is suggested.");
+        let beyond = explained(0.0235, 0.0156);
+        assert_eq!(
+            beyond,
+            "Its error of 2.35 % is more than noise alone makes (1.56 %), but nothing more is suggested."
+        );
     }
 
     #[test]

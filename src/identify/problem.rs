@@ -192,8 +192,11 @@ fn runs_in_use(runs: &[Run], warnings: &mut Vec<String>) -> Vec<usize> {
         return enabled;
     }
     for &r in enabled.iter().filter(|r| !used.contains(r)) {
-        let settles = runs[r].why_not_steady().is_none_or(|finding| finding.flag == Flag::NotSettled);
-        let why = if settles { "not settled" } else { "not periodic" };
+        let why = match runs[r].why_not_steady().map(|finding| finding.flag) {
+            Some(Flag::NotPeriodic) => "not periodic",
+            Some(Flag::DeadChannel) => "its force is zero",
+            _ => "not settled",
+        };
         warnings.push(format!("{}: {why}, so it is left out", runs[r].file));
     }
     used

@@ -5,6 +5,7 @@ pub(crate) mod base;
 pub(crate) mod base_in_time;
 pub(crate) mod channel;
 mod contacts;
+mod dead;
 mod decay;
 mod design;
 mod even_columns;

@@ -10,6 +10,9 @@ pub(crate) const FEWEST_SAMPLES: usize = 5;
 /// times were written with too few digits to be used.
 const MOST_REPEATED: f64 = 0.1;
 
+/// Largest number that is taken for a measurement, SI units; squares of larger ones soon overflow.
+const MOST: f64 = 1e30;
+
 /// A time record: `samples[channel][n]` at `time[n]`.
 ///
 /// Its constructor refuses NaN, unequal lengths, times that go back, two channels of the same name. A time that is
@@ -91,6 +94,12 @@ impl Record {
     /// Channels in the order of the file.
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+
+    /// The first sample that is larger than anything a sensor reads: channel and row, from 0.
+    pub(crate) fn beyond_measure(&self) -> Option<(usize, usize)> {
+        let beyond = |values: &Vec<f64>| values.iter().position(|value| value.abs() > MOST);
+        self.samples.iter().enumerate().find_map(|(c, values)| Some((c, beyond(values)?)))
     }
 
     /// Samples of channel number `channel` in SI units.

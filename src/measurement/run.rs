@@ -10,7 +10,7 @@ use super::fit::{ChannelFit, FitError, HarmonicFit, fit, turn_covariance};
 use super::record::Record;
 use super::signal::references;
 use super::whole_functions::WholeFunctions;
-use super::{frequency, quality};
+use super::{dead, frequency, quality};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -134,9 +134,45 @@ impl Run {
         self.enabled && (self.insisted || self.why_not_steady().is_none())
     }
 
-    /// The finding that keeps it from being used unless it is insisted on.
+    /// The finding that keeps it from being used unless it is insisted on: its motion is not steady, or a force is measured
+    /// and none acts.
     pub fn why_not_steady(&self) -> Option<&Finding> {
-        self.findings.iter().find(|finding| matches!(finding.flag, Flag::NotSettled | Flag::NotPeriodic))
+        let unsteady = |finding: &&Finding| matches!(finding.flag, Flag::NotSettled | Flag::NotPeriodic);
+        self.findings.iter().find(unsteady).or_else(|| self.why_without_force())
+    }
+
+    fn why_without_force(&self) -> Option<&Finding> {
+        let forces = self.fit.force_channels();
+        let first = &self.fit.channels[*forces.first()?].channel.to_string();
+        let silent = forces.iter().all(|&c| dead::is_silent(&self.fit.channels[c], self.record.as_deref()));
+        let of_force = |finding: &&Finding| finding.flag == Flag::DeadChannel && finding.reason.starts_with(first);
+        self.findings.iter().find(of_force).filter(|_| silent)
+    }
+
+    /// The run without the channels of motion that stand still over the whole record, which their findings say; as it is
+    /// where it is insisted on, or where nothing would be left.
+    #[must_use]
+    pub fn without_dead_channels(mut self) -> Self {
+        let record = self.record.clone();
+        let is_dead = |channel: &ChannelFit| {
+            !matches!(channel.channel.quantity, Quantity::Force | Quantity::Base)
+                && dead::stands_still(channel, record.as_deref())
+        };
+        let dead: Vec<String> =
+            self.fit.channels.iter().filter(|c| is_dead(c)).map(|c| c.channel.to_string()).collect();
+        if self.insisted || dead.is_empty() || dead.len() >= self.response_channels().len() {
+            return self;
+        }
+        self.fit.channels.retain(|channel| !is_dead(channel));
+        for finding in self.findings.iter_mut().filter(|finding| finding.flag == Flag::DeadChannel) {
+            if let Some(channel) = dead.iter().find(|channel| finding.reason.starts_with(&format!("{channel} "))) {
+                finding.reason = format!(
+                    "{channel} does not move at all: the channel is left out (`use = true` at the run keeps it)"
+                );
+            }
+        }
+        self.noise_ratio = noise_ratio(&self.fit);
+        self
     }
 
     /// Circular frequency, rad/s.

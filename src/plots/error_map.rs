@@ -226,8 +226,8 @@ impl Grid {
 #[cfg(test)]
 pub fn bare(error: f64, runs: Vec<crate::diagnosis::residual::comparison::RunComparison>) -> Comparison {
     let [levels, channels, harmonics] = [Vec::new(), Vec::new(), Vec::new()];
-    let (noise_floor, energy_error, whiteness) = (0.01, 0.0, Vec::new());
-    Comparison { error, noise_floor, energy_error, runs, levels, channels, harmonics, whiteness }
+    let (noise_floor, energy_error, whiteness, unpredicted) = (0.01, 0.0, Vec::new(), Vec::new());
+    Comparison { error, noise_floor, energy_error, runs, unpredicted, levels, channels, harmonics, whiteness }
 }
 
 #[cfg(test)]

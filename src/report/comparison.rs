@@ -68,6 +68,9 @@ fn agreement(page: &mut Page, content: &Content<'_>, found: &Comparison, control
         in_words(found.energy_error),
         format::percent(found.noise_floor)
     ));
+    for run in &found.unpredicted {
+        page.warning(&format!("{}: not predicted, left out: {}", content.project.runs[run.index].file, run.reason));
+    }
     let grid = Grid::new(found, false);
     let errors = grid.cells.iter().flatten().flatten().map(|c| c.error);
     let scale = Scale::new(found.noise_floor, errors.fold(0.0, f64::max));

@@ -190,6 +190,7 @@ pub fn as_runs(p: &Project, found: &RecordComparison) -> Comparison {
         noise_floor: found.noise_floor,
         energy_error: f64::NAN,
         runs: found.records.iter().map(|r| of_record(&p.transient_runs[r.index], r)).collect(),
+        unpredicted: Vec::new(),
         levels: Vec::new(),
         channels: Vec::new(),
         harmonics: Vec::new(),

@@ -149,7 +149,24 @@ impl Structure {
         }
         (changed.matrices, changed.origin.elastic_supports) = (Some(matrices), elastic);
         changed.correct_damping(factors);
+        changed.correct_base_loads(&bare, factors);
         changed
+    }
+
+    /// The loads of a moving base of a reduced model, which its matrices do not tell, with its masses multiplied.
+    fn correct_base_loads(&mut self, bare: &Self, factors: &[(Part, f64)]) {
+        let Some(reduction) = &mut self.origin.reduction else { return };
+        for &(part, factor) in factors {
+            match part {
+                Part::PointMass(row) => {
+                    let Some(axis) = self.dofs.get(row).and_then(|dof| dof.direction.axis()) else { continue };
+                    let own: f64 = bare.share(part).into_iter().flat_map(|share| share.mass).map(|(_, _, m)| m).sum();
+                    reduction.base_loads[axis][row] += (factor - 1.0) * own;
+                }
+                Part::Mass => reduction.base_loads.iter_mut().flatten().for_each(|load| *load *= factor),
+                _ => {}
+            }
+        }
     }
 
     /// Factor on the damping that laws of the whole structure give a mode; 1 where it is not corrected.

@@ -93,3 +93,35 @@ fn friction_that_nearly_sticks_does_not_raise_the_noise_floor() {
         }
     }
 }
+
+/// A gap through which the motion at 21 Hz is not periodic; the other two runs have an answer.
+#[test]
+fn a_run_without_an_answer_is_named_beside_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = "[project]\nformat = 1\n[structure]\nkind = \"beam\"\nlength = 0.45\nbreadth = 0.025\ndepth = 0.005\n\
+        youngs_modulus = 2.08075e11\ndensity = 7787.2\nelements = 10\nsupports = \"clamped-free\"\n\
+        [[source]]\nlaw = \"mass_proportional\"\nstate = \"known\"\nalpha = 1.2\n\
+        [[source]]\nlaw = \"stiffness_proportional\"\nstate = \"known\"\nbeta = 6e-6\n\
+        [[source]]\nlaw = \"gap\"\ndofs = [19]\nstate = \"known\"\nstiffness = 2e4\ngap = 6e-4\n\
+        [[harmonics]]\nfile = \"steps.csv\"\n";
+    let steps = "frequency_hz,force@7 [N],acc@19 [g],phase_deg acc@19\n\
+        20.0,0.2977,0.9,171\n21.0,0.2977,1.09475,170.188\n126.0,0.3,0.3,10\n";
+    let path = folder.path().join("p.toml");
+    std::fs::write(&path, project).unwrap();
+    std::fs::write(folder.path().join("steps.csv"), steps).unwrap();
+    let path = path.display().to_string();
+    let said = |words: &[&str]| dashpot::cli::answer(["dashpot"].iter().chain(words).map(Into::into));
+    let text = said(&["compare", &path]).unwrap();
+    assert!(text.contains("row 1  20.00") && text.contains("row 3  126.0") && !text.contains("row 2  21"), "{text}");
+    assert!(text.contains("row 2: not predicted, left out: no periodic response was found at 21.0"), "{text}");
+    let found: serde_json::Value = serde_json::from_str(&said(&["compare", "--json", &path]).unwrap()).unwrap();
+    assert_eq!(found["runs"].as_array().unwrap().len(), 2);
+    assert_eq!(found["unpredicted"][0]["file"], "row 2");
+    assert!(found["unpredicted"][0]["reason"].as_str().unwrap().starts_with("no periodic response was found"));
+    // Where no run has an answer, there is nothing to compare.
+    let only: String =
+        steps.lines().enumerate().filter(|(i, _)| [0, 2].contains(i)).map(|(_, l)| format!("{l}\n")).collect();
+    std::fs::write(folder.path().join("steps.csv"), only).unwrap();
+    let refused = said(&["compare", &path]).unwrap_err();
+    assert!(refused.contains("run row 1 could not be predicted"), "{refused}");
+}

@@ -169,3 +169,34 @@ fn one_name_in_two_sets_is_two_channels_each_for_its_runs() {
     let twice = [force, &acc("1", 1, ""), &acc("1", 1, ""), &run("1")].concat();
     assert!(record(folder.path(), &twice).unwrap_err().contains("the channel acc@1"));
 }
+
+#[test]
+fn a_sensitivity_is_read_however_its_attribute_is_spelt() {
+    use dashpot_datafiles::{Axis, Channel, Contents, Format, Kind, Set};
+    let factor = |word: &str, value: &str| {
+        let channel = Channel {
+            name: "Acc 3".to_owned(),
+            unit: "V".to_owned(),
+            count: 8,
+            complex: false,
+            axis: Axis::Even { start: 0.0, step: 1e-3 },
+            first: Vec::new(),
+            attributes: vec![(word.to_owned(), value.to_owned())],
+        };
+        let (name, axis_unit) = ("Run".to_owned(), "s".to_owned());
+        let set = Set { name, kind: Kind::Time, axis_unit, channels: vec![channel], notes: Vec::new() };
+        let proposal = propose(&Contents { format: Format::Tdms, sets: vec![set], notes: Vec::new() });
+        let table = proposal.channels.into_iter().next().unwrap();
+        (table.unit.unwrap(), table.factor.unwrap())
+    };
+    let expected = ("g".to_owned(), 10.0);
+    for (word, value) in [
+        ("sensitivity", "100 mV/g"),
+        ("Sensitivity", "100 mV/g"),
+        ("SENSITIVITY", "0.1 V/g"),
+        ("Sensitivity (mV/g)", "100"),
+        ("Sensor Sensitivity [mV/g]", "100.0"),
+    ] {
+        assert_eq!(factor(word, value), expected, "{word} = {value}");
+    }
+}

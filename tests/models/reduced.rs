@@ -69,3 +69,46 @@ fn dashpots_of_the_whole_model_are_found_on_the_reduced_one() {
     let compared = json(&["compare", "p.toml", "--json"], folder.path());
     assert_eq!(compared["reduction"]["method"], "craig-bampton");
 }
+
+/// Natural frequencies of the structure of a project, Hz.
+fn frequencies_hz(folder: &Path, text: &str) -> Vec<f64> {
+    fs::write(folder.join("f.toml"), text).unwrap();
+    let plan = dashpot::exchange::project::open(&folder.join("f.toml")).unwrap();
+    let modes = plan.structure.modes().unwrap();
+    modes.omega.iter().map(|omega| omega / std::f64::consts::TAU).collect()
+}
+
+#[test]
+fn corrections_hold_for_finite_element_files_whole_and_reduced() {
+    let folder = tempfile::tempdir().unwrap();
+    write_model(folder.path());
+    let csv = |a: &Mat<f64>| -> String {
+        let row = |i: usize| (0..a.ncols()).map(|j| format!("{:e}", a[(i, j)])).collect::<Vec<_>>().join(",") + "\n";
+        (0..a.nrows()).map(row).collect()
+    };
+    let small = cantilever(10);
+    let matrices = small.matrices().unwrap();
+    fs::write(folder.path().join("m.csv"), csv(&matrices.mass)).unwrap();
+    fs::write(folder.path().join("k.csv"), csv(&matrices.stiffness)).unwrap();
+    let plain = HEAD.replace("beam.mas", "m.csv").replace("beam.sti", "k.csv");
+    let reduce = "[structure.reduce]\nup_to_hz = 8000.0\nband_hz = 700.0\ndofs = [\"9\", \"19\"]\n";
+    for shape in [HEAD.to_owned(), format!("{HEAD}{REDUCE}"), plain.clone(), format!("{plain}{reduce}")] {
+        let correction = "[[structure.correction]]\nwhat = \"stiffness\"\nfactor = 0.25\n";
+        let mode = "[[structure.correction]]\nwhat = \"mode\"\nmode = 2\nfactor = 1.21\n";
+        let as_it_is = frequencies_hz(folder.path(), &shape);
+        let corrected = frequencies_hz(folder.path(), &format!("{shape}{correction}{mode}"));
+        for (mode, expected) in [0.5, 0.55, 0.5].into_iter().enumerate() {
+            let ratio = corrected[mode] / as_it_is[mode];
+            assert!((ratio - expected).abs() < 1e-6, "mode {}: {ratio}, {shape}", mode + 1);
+        }
+        let line = format!("{shape}{mode}").lines().count() - 3;
+        let unknown = format!("{shape}{}", mode.replace("mode = 2", "mode = 900"));
+        let said = refused(&["compare", "f.toml"], folder.path(), &unknown);
+        assert!(said.starts_with(&format!("f.toml:{line}: `mode = 900`")), "{said}");
+    }
+}
+
+fn refused(arguments: &[&str], folder: &Path, text: &str) -> String {
+    fs::write(folder.join("f.toml"), text).unwrap();
+    crate::refused(arguments, folder)
+}

@@ -20,6 +20,11 @@ use std::sync::Arc;
 /// Share of the squared residual from which on corrections explain most of it.
 const MOST: f64 = 0.9;
 
+/// Share of the error of the response that is left by corrections which are worth telling.
+const MOST_OF_ERROR: f64 = 0.9;
+/// Error that is still that of noise, in noise floors: the floor is a mean, noise scatters.
+const OF_NOISE: f64 = 1.1;
+
 /// What a comparison says of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reading {
@@ -31,6 +36,8 @@ pub(crate) enum Reading {
     DetunedAndMissing,
     /// They do not explain it, or only by more than models are wrong by.
     Missing,
+    /// They explain it where the search predicts, but leave as much of the error as there is without them.
+    Undecided,
 }
 
 impl Reading {
@@ -41,6 +48,7 @@ impl Reading {
             Self::Detuned => "detuned",
             Self::DetunedAndMissing => "detuned and missing",
             Self::Missing => "missing",
+            Self::Undecided => "undecided",
         }
     }
 
@@ -54,6 +62,10 @@ impl Reading {
             Self::DetunedAndMissing => "the model is detuned, and beyond that an effect is missing",
             Self::Missing => {
                 "an effect is missing: no likely correction of the model's own numbers explains the difference"
+            }
+            Self::Undecided => {
+                "corrections of the model's own numbers leave as much of the difference as there is: whether it is detuned or lacks \
+                 an effect is not known; `dashpot diagnose` searches for both"
             }
         }
     }
@@ -70,6 +82,24 @@ pub(crate) struct Detuning {
     pub error_after: f64,
     /// The corrections.
     pub corrections: Vec<Correction>,
+}
+
+impl Detuning {
+    /// The reading beside the error and the noise floor of the comparison that it is shown with. Corrections are found where
+    /// the search predicts, on a response that folds perhaps on another branch: those that leave as much as there is without
+    /// them explain nothing.
+    #[must_use]
+    pub(crate) fn beside(self, error: f64, noise_floor: f64) -> Self {
+        if self.reading == Reading::Agrees || self.error_after <= MOST_OF_ERROR * error {
+            return self;
+        }
+        let reading = match self.reading {
+            _ if error <= OF_NOISE * noise_floor => Reading::Agrees,
+            Reading::Missing => Reading::Missing,
+            _ => Reading::Undecided,
+        };
+        Self { reading, share: 0.0, error_after: error, corrections: Vec::new() }
+    }
 }
 
 /// Tells a detuned model from one that lacks an effect; none for `points`, which state nothing to correct.
@@ -127,4 +157,21 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
         | UpdatingParameter::Shape { .. }
         | UpdatingParameter::Session(_) => true,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Detuning, Reading};
+
+    #[test]
+    fn corrections_that_leave_more_than_there_is_are_not_told() {
+        let told = |reading, error_after, [error, floor]: [f64; 2]| {
+            let detuning = Detuning { reading, share: 1.0, error_after, corrections: Vec::new() }.beside(error, floor);
+            (detuning.reading, detuning.share)
+        };
+        assert_eq!(told(Reading::Detuned, 0.1055, [0.01017, 0.00956]), (Reading::Agrees, 0.0));
+        assert_eq!(told(Reading::Detuned, 4.135, [0.8, 0.01]), (Reading::Undecided, 0.0));
+        assert_eq!(told(Reading::Missing, 0.98, [0.9, 0.01]), (Reading::Missing, 0.0));
+        assert_eq!(told(Reading::Detuned, 0.0101, [0.2, 0.01]), (Reading::Detuned, 1.0));
+    }
 }

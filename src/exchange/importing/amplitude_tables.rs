@@ -41,13 +41,15 @@ pub(super) fn import(
     let text = text(&tables, amplitudes, &mapping, out)?;
     let loaded = plan(&format!("{head}{text}"), out).and_then(|plan| plan.load(control));
     let loaded = loaded.map_err(ImportError::Unwritten)?;
-    let summary = summary(&mapping, &tables, loaded.runs.len(), out);
+    let mut stated: Vec<i64> = loaded.runs.iter().filter_map(|run| run.level).collect();
+    stated.sort_unstable();
+    stated.dedup();
+    let summary = summary(&mapping, &tables, [loaded.runs.len(), stated.len().max(1)], out);
     Ok(Imported { head, tables: text, summary, remarks: Vec::new() })
 }
 
 /// What was made of the tables, for the user.
-fn summary(mapping: &Proposal, tables: &[Table], runs: usize, out: &Path) -> String {
-    let levels = levels(tables);
+fn summary(mapping: &Proposal, tables: &[Table], [runs, levels]: [usize; 2], out: &Path) -> String {
     let assumed = mapping.assumed.iter().map(|(name, what)| format!("assumed: {name}: {what}\n"));
     let left = mapping.left.iter().map(|(name, why)| format!("not mapped: \"{name}\" ({why})\n"));
     format!(
@@ -55,7 +57,7 @@ fn summary(mapping: &Proposal, tables: &[Table], runs: usize, out: &Path) -> Str
         assumed.chain(left).collect::<String>(),
         counted(runs, "run"),
         counted(tables.len(), "table"),
-        counted(levels.iter().max().copied().unwrap_or(1), "level"),
+        counted(levels, "level"),
         out.display()
     )
 }

@@ -94,7 +94,7 @@ pub fn proposal(request: &Request, out: &Path, control: &Control) -> Result<Stri
     if has_responses(request)? || stepped_table(request)?.is_some() {
         return import(request, out, control).map(|imported| imported.text());
     }
-    records::template(request, records::mapping(request)?)
+    records::template(request, records::mapping(request)?, out)
 }
 
 fn has_responses(request: &Request) -> Result<bool> {

@@ -2,9 +2,10 @@
 //! structures that move in one direction only, which may be another than that of the sensors' axes.
 
 use super::error::{ImportError, Result};
-use crate::exchange::mapping::Proposal;
+use crate::exchange::mapping::{DIRECTION_ASSUMED, Proposal};
 use crate::exchange::project::plan;
 use crate::measurement::Quantity;
+use crate::measurement::base::AXES;
 use crate::structure::{Structure, StructureKind};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -65,7 +66,29 @@ pub(super) fn placed(mut mapping: Proposal, head: &str, out: &Path) -> Result<Pr
     for taken in of_numbers(&structure, &numbers) {
         relabel(&mut mapping, &taken.number, &taken.label, &taken.how);
     }
+    base_along_the_only_axis(&mut mapping, &structure);
     Ok(mapping)
+}
+
+/// A base that moves along an axis of which the structure has no DOF moves along the only one that it has, which is said.
+fn base_along_the_only_axis(mapping: &mut Proposal, structure: &Structure) {
+    let mut axes: Vec<usize> = structure.dofs().iter().filter_map(|dof| dof.direction.axis()).collect();
+    axes.sort_unstable();
+    axes.dedup();
+    let [only] = axes[..] else { return };
+    let label = AXES[only];
+    for table in mapping.channels.iter_mut().filter(|table| table.quantity == Quantity::Base && table.dof != label) {
+        let old = table.channel();
+        label.clone_into(&mut table.dof);
+        let name = table.channel();
+        mapping.assumed.retain(|(channel, what)| *channel != old || !what.ends_with(DIRECTION_ASSUMED));
+        mapping
+            .assumed
+            .iter_mut()
+            .filter(|(channel, _)| *channel == old)
+            .for_each(|(channel, _)| channel.clone_from(&name));
+        mapping.assumed.push((name, format!("the model moves along {label} only: so does its base")));
+    }
 }
 
 /// What a number among places is taken for on a beam.
@@ -171,6 +194,30 @@ mod tests {
         assert_eq!(found(chain, &["1z", "2x"]), "");
         assert_eq!(found(BEAM, &["2y", "4y"]), "2y 3, 4y 7");
         assert_eq!(found(BEAM, &["2z", "4z"]), "");
+    }
+
+    /// A table whose direction no name says shakes a chain along its own axis.
+    #[test]
+    fn the_base_of_a_chain_moves_along_its_only_axis() {
+        let chain = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1, 1]\n\
+                     ground_stiffness = [1, 0]\ncoupling_stiffness = [1]\n";
+        let table = ChannelTable {
+            name: "Table acc".to_owned(),
+            set: None,
+            quantity: Quantity::Base,
+            dof: "z".to_owned(),
+            unit: None,
+            sign: None,
+            factor: None,
+            delay: None,
+            optional: false,
+        };
+        let said = ("base@z".to_owned(), format!("the file says no direction: z{DIRECTION_ASSUMED}"));
+        let proposal = Proposal { channels: vec![table], assumed: vec![said], ..Proposal::default() };
+        let placed = |head: &str| placed(proposal.clone(), head, Path::new("p.toml")).unwrap();
+        let found = placed(chain);
+        assert_eq!(found.channels[0].dof, "x");
+        assert_eq!(found.assumed, [("base@x".to_owned(), "the model moves along x only: so does its base".to_owned())]);
     }
 
     #[test]

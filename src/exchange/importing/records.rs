@@ -72,8 +72,11 @@ fn rove(request: &Request, mapping: &mut Proposal, sources: &mut [RunSource]) ->
 }
 
 /// The mapping as text for a template; what is not mapped in comments.
-pub(super) fn template(request: &Request, mapping: Proposal) -> Result<String> {
-    let mapping = usable(request, mapping)?;
+pub(super) fn template(request: &Request, mapping: Proposal, out: &Path) -> Result<String> {
+    let mut mapping = usable(request, mapping)?;
+    if request.kept.is_some() && request.channels.is_none() {
+        mapping = placed(mapping, &head(request, out, "", 0.0)?, out)?;
+    }
     let mut text = format!("# Mapping of the channels of {}\n", request.files[0].display());
     if mapping.needs_sampling {
         text.push_str("# the file does not say the time between samples: give it by --sampling-hz\n");
@@ -140,6 +143,14 @@ fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
     if mapping.channels.is_empty() {
         let why = refusal(open(&request.files[0])?.contents(), &mapping.left);
         return Err(ImportError::of(&request.files[0], why));
+    }
+    if let Some((name, why)) = mapping.motion_of_another_rate() {
+        let force = &mapping.channels[0].name;
+        let problem = format!(
+            "\"{name}\" and the force \"{force}\" are not recorded together: {why}; record or export all channels at one rate, \
+             filtered before samples are left out"
+        );
+        return Err(ImportError::of(&request.files[0], problem));
     }
     Ok(mapping)
 }

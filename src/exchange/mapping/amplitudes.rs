@@ -29,6 +29,9 @@ const PHASES: [&str; 10] =
 /// Words of names of amplitudes that say nothing of what was measured.
 const AMPLITUDES: [&str; 8] = ["amplitude", "amp", "ampl", "mag", "magnitude", "abs", "betrag", "peak"];
 
+/// Largest number of a level.
+const MOST_LEVEL: f64 = 1e9;
+
 /// What the columns of such a table are.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Amplitudes {
@@ -56,7 +59,8 @@ pub(super) fn amplitudes(contents: &Contents, set: &Set) -> Option<Amplitudes> {
     if !swept || phases.is_empty() || set.channels.iter().any(|channel| channel.complex) {
         return None;
     }
-    let sizes: Vec<Channel> = others.into_iter().filter(|channel| frequency(channel).is_none()).cloned().collect();
+    let is_size = |channel: &&Channel| frequency(channel).is_none() && !is_level(channel);
+    let sizes: Vec<Channel> = others.into_iter().filter(is_size).cloned().collect();
     let as_record = Set { kind: Kind::Time, channels: sizes, name: String::new(), ..set.clone() };
     let mut mapping = propose(&Contents { sets: vec![as_record], notes: Vec::new(), format: contents.format });
     mapping.channels.iter_mut().for_each(|table| table.set = None);
@@ -97,6 +101,25 @@ fn frequency(channel: &Channel) -> Option<f64> {
         Role::Frequency(to_hz) => Some(to_hz),
         _ => None,
     }
+}
+
+/// Whether a column numbers the level of each row.
+fn is_level(channel: &Channel) -> bool {
+    channel.unit.trim().is_empty() && role(&channel.name) == Role::Level
+}
+
+/// Levels of the rows of a set, where a column of whole numbers says them.
+fn levels(file: &DataFile, s: usize, at: &At<'_>) -> Result<Option<Vec<i64>>, RecordFileError> {
+    let channels = &file.contents().sets[s].channels;
+    let Some(name) = channels.iter().find(|channel| is_level(channel)).map(|channel| channel.name.as_str()) else {
+        return Ok(None);
+    };
+    let (_, values) = column(file, s, name, at)?;
+    if let Some(row) = values.iter().position(|value| value.fract() != 0.0 || value.abs() > MOST_LEVEL) {
+        let problem = format!("row {} is {}, and levels are whole numbers", row + 1, values[row]);
+        return Err(at.error(Some(name), format!("{problem}; correct it or rename the column")));
+    }
+    Ok(Some(values.into_iter().map(|value| value as i64).collect()))
 }
 
 /// The column of the phase of each channel: of the same name but for words, of the same place, or the next on its right.
@@ -143,13 +166,15 @@ pub(crate) fn read_amplitudes(
     let Some(frequencies) = frequencies(&file, s) else {
         return Err(at.error(None, "the table has no column of frequencies; call it `Frequency [Hz]`"));
     };
+    let levels = levels(&file, s, &at)?;
     let set = table.set.map_or_else(String::new, |set| format!("{set} "));
     let run = |(row, &frequency_hz): (usize, &f64)| {
         let fit = row_of(&columns, row, frequency_hz, table.phase_of).ok_or_else(|| {
             let problem = "has no frequency above 0 Hz, or an amplitude or phase that is no number; leave the row out";
             at.error(None, format!("row {} of its numbers {problem}", row + 1))
         })?;
-        Ok(HarmonicsRun { name: format!("{set}row {}", row + 1), fit, level: None, session: None })
+        let level = levels.as_ref().and_then(|levels| levels.get(row).copied());
+        Ok(HarmonicsRun { name: format!("{set}row {}", row + 1), fit, level, session: None })
     };
     frequencies.iter().enumerate().map(run).collect()
 }

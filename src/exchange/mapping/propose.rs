@@ -20,6 +20,12 @@ const TIMES: &str = "time of ";
 /// How an assumption begins that a force acts at the first motion, whose DOF follows.
 pub const FORCE_WITHOUT_PLACE: &str = "the file says no DOF: it is taken to act at DOF";
 
+/// How it is said that a channel has another rate than the others, or another length.
+const OTHER_RATE: &str = "is sampled at another rate";
+const OTHER_LENGTH: &str = "where the others have";
+/// How an assumption ends that the base moves in a direction which the file does not say.
+pub(crate) const DIRECTION_ASSUMED: &str = " is assumed";
+
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
@@ -150,13 +156,20 @@ fn take_for_base(drafts: &mut [Draft<'_>]) {
     draft.placed = true;
     draft.assumed.push("by its name the motion of the base, and no force is measured".to_owned());
     if said.is_none() {
-        draft.assumed.push("the file says no direction: z is assumed".to_owned());
+        draft.assumed.push(format!("the file says no direction: z{DIRECTION_ASSUMED}"));
     }
 }
 
 impl Proposal {
     fn leave(&mut self, channel: &Channel, reason: &str) {
         self.left.push((channel.name.clone(), reason.to_owned()));
+    }
+
+    /// The channel of motion that is left out since it is not recorded at the rate of the forces, where they alone are mapped.
+    pub(crate) fn motion_of_another_rate(&self) -> Option<&(String, String)> {
+        let forces = !self.channels.is_empty() && self.channels.iter().all(|table| table.quantity == Quantity::Force);
+        let uneven = |why: &str| why.contains(OTHER_RATE) || why.contains(OTHER_LENGTH);
+        self.left.iter().find(|(_, why)| forces && uneven(why))
     }
 
     /// Keeps the channels of the length and step that most of them have: those of a run share their times.
@@ -170,8 +183,8 @@ impl Proposal {
         let (kept, others): (Vec<_>, Vec<_>) = drafts.into_iter().partition(|draft| times(draft) == most);
         for draft in others {
             let reason = match (draft.channel.count, most.0) {
-                (own, most) if own == most => "it is sampled at another rate than the others".to_owned(),
-                (own, most) => format!("it has {own} values where the others have {most}"),
+                (own, most) if own == most => format!("it {OTHER_RATE} than the others"),
+                (own, most) => format!("it has {own} values {OTHER_LENGTH} {most}"),
             };
             self.leave(draft.channel, &reason);
         }
@@ -310,6 +323,21 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
     Ok(draft)
 }
 
+/// The sensitivity that an attribute states, however it is spelt: `Sensitivity` = `100 mV/g`, `sensitivity (mV/g)` = `100`.
+fn stated_sensitivity(channel: &Channel) -> Option<(f64, String, String)> {
+    let of_sensor = |name: &str| {
+        let lower = name.trim().to_lowercase();
+        ["sensitivity", "sensor sensitivity", "sensor_sensitivity", "empfindlichkeit"]
+            .iter()
+            .any(|w| lower.starts_with(w))
+    };
+    let read = |(name, value): &(String, String)| {
+        let unit = name.split_once(['(', '[']).map_or("", |(_, unit)| unit);
+        sensitivity(value).or_else(|| sensitivity(&format!("{} {unit}", value.trim())))
+    };
+    channel.attributes.iter().filter(|(name, _)| of_sensor(name)).find_map(read)
+}
+
 /// A channel in volts whose name or metadata state its sensitivity, such as 100 mV/g: its factor is the inverse.
 fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Option<i64>)>) -> Option<Draft<'_>> {
     let volts = |unit: &str| match unit.trim().to_lowercase().as_str() {
@@ -319,8 +347,7 @@ fn calibrated(channel: &Channel, set: Option<String>, place: Option<(String, Opt
         _ => None,
     };
     let own = volts(&channel.unit)?;
-    let (value, over, under) =
-        channel.attribute("sensitivity").and_then(sensitivity).or_else(|| sensitivity(&channel.name))?;
+    let (value, over, under) = stated_sensitivity(channel).or_else(|| sensitivity(&channel.name))?;
     let (unit, factor) = (LabUnit::from_name(&under)?, own / (value * volts(&over)?));
     let (label, sign) = place.filter(|_| sensitivity(&channel.name).is_none()).unwrap_or_else(|| {
         // The digits of the sensitivity are no place.

@@ -3,7 +3,7 @@
 use super::fault::{At, data};
 use super::memory::too_large;
 use super::propose::own_name;
-use super::samples::{same_even_axis, same_time, samples, times};
+use super::samples::{same_even_axis, same_time, samples, times, whole};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::exchange::records::{RecordFileError, RecordProblem, base_channel, known_labels};
@@ -107,6 +107,7 @@ pub(crate) fn read_mapped(
     let unit = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].unit.as_str();
     let target = |(table, place)| target(table, unit(place), structure, &at);
     let found = channels.iter().zip(&places).map(target).collect::<Result<Vec<_>, _>>()?;
+    whole(&file, &places, &at)?;
     let samples = samples(&file, channels, &places, &at)?;
     for (table, &(set, channel)) in channels.iter().zip(&places) {
         if time.is_some() && same_even_axis(&file, places[0], (set, channel)) {

@@ -50,6 +50,21 @@ impl Corrected {
         ];
         Self::WORDS.iter().position(|w| *w == word).map(|k| all[k])
     }
+
+    /// Whether a part of this kind is named by `key`.
+    fn takes(self, key: &str) -> Result<(), Problem> {
+        let own = match self {
+            Self::Stiffness | Self::Mass => "",
+            Self::Mode | Self::ModeDamping => "mode",
+            Self::Spring | Self::PointMass => "dofs",
+            Self::ElementStiffness | Self::ElementMass => "elements",
+            Self::Support => "node",
+        };
+        let table = format!("[[structure.correction]] of what = \"{}\"", Self::WORDS[self as usize]);
+        let hint = if own.is_empty() { "leave it out".to_owned() } else { format!("its part is named by `{own}`") };
+        let problem = Problem::UnknownKey { table, key: key.to_owned(), hint };
+        if own == key { Ok(()) } else { Err(problem) }
+    }
 }
 
 /// Table `[[structure.correction]]`.
@@ -161,7 +176,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
         table.only(&["what", "dofs", "elements", "mode", "node", "factor"])?;
         let what = table.word("what", &Corrected::WORDS, Corrected::from_word)?;
         let what = table.need("what", "what = \"mode\"", what)?;
-        let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
+        let dofs: Vec<_> = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         let factor = table.need("factor", "factor = 1.02", table.number("factor")?)?;
         if !(factor.is_finite() && factor > 0.0) {
             let value = factor.to_string();
@@ -169,6 +184,10 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
         }
         let (elements, mode) = (super::keys::elements(&table)?, table.whole("mode")?);
         let node = table.label("node")?.map(Label);
+        let stated = [("dofs", !dofs.is_empty()), ("elements", elements.is_some()), ("mode", mode.is_some())];
+        for (key, _) in stated.into_iter().chain([("node", node.is_some())]).filter(|(_, is_there)| *is_there) {
+            what.takes(key).map_err(|problem| table.error(key, problem))?;
+        }
         tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
         lines.correction.push(table.line());
     }

@@ -101,7 +101,7 @@ impl Plan {
                     };
                     self.run_error(index, key, problem)
                 })?;
-        self.on_its_base(Some(index), run)
+        self.on_its_base(Some(index), run.without_dead_channels())
     }
 
     /// Reads the record of run number `index`, which is not steady.

@@ -12,7 +12,9 @@ use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;
 use crate::exchange::mapping::{AmplitudeTable, ChannelTable, Template, read_amplitudes, read_mapped, reads_as_own};
-use crate::exchange::records::{HarmonicsRun, SteppedSine, read_harmonics_as, read_record_with};
+use crate::exchange::records::{
+    HarmonicsRun, RecordFileError, RecordProblem, SteppedSine, read_harmonics_as, read_record_with,
+};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
 use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
@@ -247,6 +249,14 @@ fn recorded(channels: &[String], structure: &Structure) -> Result<(), Problem> {
     Ok(())
 }
 
+/// Refuses a record with a number that no sensor reads.
+fn measurable(record: Record, path: &Path) -> Result<Record, RecordFileError> {
+    let Some((c, row)) = record.beyond_measure() else { return Ok(record) };
+    let problem = RecordProblem::BeyondMeasure { row: row + 1, value: record.samples(c)[row] };
+    let column = Some(format!("channel {}", record.channels()[c]));
+    Err(RecordFileError { file: path.display().to_string(), line: None, column, problem })
+}
+
 impl Plan {
     /// Settings of the analysis.
     pub fn settings(&self) -> &Settings {
@@ -331,7 +341,8 @@ impl Plan {
         } else {
             read_mapped(&planned.path, template, &self.structure)
         };
-        read.map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
+        read.and_then(|record| measurable(record, &planned.path))
+            .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
     }
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.

@@ -21,32 +21,31 @@ pub(super) fn structure(
     at: At<'_>,
 ) -> Result<Structure, ProjectError> {
     let lumped = &table.lumped_mass;
+    let wrong = |problem: Problem| {
+        let line = match &problem {
+            Problem::Structure(error) => blamed(error, table, at),
+            _ => line(&at.lines.structure, ""),
+        };
+        at.error(line, problem)
+    };
+    let of_structure = |error: StructureError| Problem::Structure(Box::new(error));
     let built = match &table.shape {
-        Shape::Beam(parameters) => parameters.build(lumped),
-        Shape::Chain(parameters) => parameters.build(lumped),
-        Shape::Matrices(files) if model::is_needed(files, folder) => {
-            let built = model::structure(files, folder, lumped, named);
-            return built.map_err(|problem| {
-                let line = match &problem {
-                    Problem::Structure(error) => blamed(error, table, at),
-                    _ => line(&at.lines.structure, ""),
-                };
-                at.error(line, problem)
-            });
-        }
+        Shape::Beam(parameters) => parameters.build(lumped).map_err(of_structure),
+        Shape::Chain(parameters) => parameters.build(lumped).map_err(of_structure),
+        Shape::Matrices(files) if model::is_needed(files, folder) => model::structure(files, folder, lumped, named),
         Shape::Matrices(files) => {
-            imported(files, folder).map_err(|problem| at.error(line(&at.lines.structure, ""), problem))?.build(lumped)
+            imported(files, folder).and_then(|parameters| parameters.build(lumped).map_err(of_structure))
         }
         Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => {
             return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
         }
         Shape::Points(points) => {
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
-            PointParameters { dofs, positions: points.positions.clone() }.build()
+            PointParameters { dofs, positions: points.positions.clone() }.build().map_err(of_structure)
         }
-        Shape::Component(parameters) => parameters.build(),
+        Shape::Component(parameters) => parameters.build().map_err(of_structure),
     };
-    let built = built.map_err(|error| at.error(blamed(&error, table, at), Problem::Structure(Box::new(error))))?;
+    let built = built.map_err(wrong)?;
     corrected(built, &table.correction).map_err(|(k, problem)| at.error(at.lines.correction[k], problem))
 }
 

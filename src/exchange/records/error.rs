@@ -83,6 +83,8 @@ pub enum RecordProblem {
     NotANumber { text: String },
     #[error("{text} is not a finite number; remove the row or mend the number")]
     NotFinite { text: String },
+    #[error("sample {row} is {value:e} (SI units), more than any sensor reads; mend the number or remove the row")]
+    BeyondMeasure { row: usize, value: f64 },
     #[error("time {time} s follows {before} s; sort the rows by time")]
     TimeGoesBack { time: f64, before: f64 },
     #[error("{problem}")]

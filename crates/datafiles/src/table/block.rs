@@ -10,6 +10,10 @@ pub(crate) struct Block {
     pub header: Vec<HeaderLine>,
     /// Rows.
     pub rows: usize,
+    /// Line of the first row, from 1, and of the last.
+    pub lines: [u64; 2],
+    /// Cells of the last row.
+    pub last_width: usize,
     pub columns: Vec<Numbers>,
     /// Columns of texts, ascending: they hold no numbers.
     pub texts: Vec<usize>,

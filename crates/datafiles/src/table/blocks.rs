@@ -5,12 +5,18 @@ use super::cell::Cell;
 use super::header_line::HeaderLine;
 use super::moment::date_and_time;
 use super::text_columns::{self, Run};
+use crate::axis::ascending;
 use crate::error::{Fault, Read, one_line};
 
 /// Most lines of a header that are kept: names and units stand right above the numbers.
 const MOST_HEADER: usize = 200;
 /// Most columns of a table.
 const MOST_COLUMNS: usize = 20_000;
+
+/// Most lines of single words between rows of one table.
+const MOST_WORDS: usize = 5;
+/// Steps of its first column from which a table does not go on, but another begins.
+const MOST_LOST: f64 = 100.0;
 
 /// Finds blocks of numbers in rows that come one by one.
 #[derive(Debug, Default)]
@@ -19,6 +25,8 @@ pub(crate) struct Blocks {
     open: Option<Block>,
     done: Vec<Block>,
     gap: bool,
+    /// Line of the words that ended the last block.
+    torn_at: u64,
     lost_header: usize,
     /// Rows of numbers with texts in the same columns, of which it is not known yet whether they are the table.
     run: Run,
@@ -49,6 +57,7 @@ impl Blocks {
     fn numbers(&mut self, line: u64, cells: &[Cell]) -> Read<()> {
         if self.open.is_none() {
             self.pass_run();
+            self.not_torn(cells)?;
         }
         if let Some(block) = &self.open
             && cells.len() > block.columns.len() + block.skip
@@ -77,6 +86,8 @@ impl Blocks {
         });
         let cells = cells.get(block.skip..).unwrap_or_default();
         let row = block.rows;
+        block.lines = [if row == 0 { line } else { block.lines[0] }, line];
+        block.last_width = cells.len();
         for (i, column) in block.columns.iter_mut().enumerate() {
             column.push(cells.get(i).unwrap_or(&Cell::Empty), row);
         }
@@ -114,7 +125,12 @@ impl Blocks {
             if comment {
                 return Ok(());
             }
-            if block.rows <= 1 { self.demote() } else { self.close() }
+            if block.rows <= 1 {
+                self.demote();
+            } else {
+                self.torn_at = line;
+                self.close();
+            }
         }
         if self.open.is_none() && self.remark_behind(cells) {
             return self.numbers(line, &cells[..cells.len() - 1]);
@@ -136,6 +152,41 @@ impl Blocks {
         }
         self.remark(HeaderLine { cells: cells.iter().map(text).collect() });
         Ok(())
+    }
+
+    /// Refuses a row of numbers that goes on where the block before ended, with nothing but single words between them, such
+    /// as `Overload`: taken for two tables, the record would lose all that follows.
+    fn not_torn(&self, cells: &[Cell]) -> Read<()> {
+        let Some(before) = self.done.last().filter(|block| block.columns.len() == cells.len() && cells.len() > 1)
+        else {
+            return Ok(());
+        };
+        let word = |line: &HeaderLine| {
+            let mut words = line.cells.iter().filter(|cell| !cell.is_empty());
+            let first = words.next();
+            first.filter(|_| words.next().is_none()).cloned()
+        };
+        let words: Option<Vec<String>> = self.header.iter().map(word).collect();
+        let Some(word) = words.filter(|words| words.len() <= MOST_WORDS).and_then(|words| words.into_iter().next())
+        else {
+            return Ok(());
+        };
+        let (times, Some(Cell::Real(now) | Cell::Clock(now))) = (&before.columns[0].re, cells.first()) else {
+            return Ok(());
+        };
+        let (Some(first), Some(last)) = (times.first(), times.last()) else { return Ok(()) };
+        let step = (last - first) / (times.len() as f64 - 1.0);
+        let goes_on = ascending(times) && step > 0.0 && *now > *last && now - last < MOST_LOST * step;
+        if !goes_on {
+            return Ok(());
+        }
+        let word = one_line(&word, 40);
+        Err(Fault::line(
+            self.torn_at,
+            format!(
+                "\"{word}\" stands between rows of one table, which goes on below it; remove the line (and the samples on one side of it, where it says that they are wrong)"
+            ),
+        ))
     }
 
     /// Keeps a line of the header.

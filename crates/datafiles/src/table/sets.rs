@@ -10,6 +10,11 @@ use crate::source::Source;
 use crate::tree::{Sampling, sampling};
 use uff::Values;
 
+/// How the note begins that the last row of a table ends early.
+pub const CUT_OFF: &str = "the file ends";
+/// How the note begins that times are not in order.
+pub const TIME_GOES_BACK: &str = "the time goes back";
+
 /// Values of a column.
 #[derive(Debug, Clone)]
 pub(crate) struct Column {
@@ -81,6 +86,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     let mut set = Set::new(name, kind);
     set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
     set.notes.extend(said);
+    set.notes.extend(ends_and_order(&header, &block, axis.is_some()));
     set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
@@ -146,6 +152,32 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     }
     columns.axis = axis_values;
     (set, columns)
+}
+
+/// Says that the table was cut off, or that its times are not in order.
+fn ends_and_order(header: &header::Header, block: &Block, has_axis: bool) -> Vec<String> {
+    let back = if has_axis || header.step.is_some() { None } else { goes_back(header, block) };
+    cut_off(block).into_iter().chain(back).collect()
+}
+
+/// Says that the last row ends before those above it do, in a column that has a number in every other row.
+fn cut_off(block: &Block) -> Option<String> {
+    let rows = block.rows;
+    let short = |numbers: &Numbers| numbers.re.len() + 1 == rows && numbers.gaps == 0 && numbers.first == 0;
+    let missing = block.columns.iter().skip(block.last_width).filter(|numbers| short(numbers)).count();
+    (rows > 2 && missing > 0).then(|| {
+        let (width, line) = (block.columns.len(), block.lines[1]);
+        format!("{CUT_OFF} in line {line}, which has {} of {width} cells", width - missing)
+    })
+}
+
+/// Says where the times of a column of that name go back.
+fn goes_back(header: &header::Header, block: &Block) -> Option<String> {
+    let of_time = |i: &usize| kind_of(&header.names[*i], &header.units[*i]) == Some(Kind::Time);
+    let times = &block.columns[(0..block.columns.len().min(3)).find(of_time)?].re;
+    let row = times.windows(2).position(|pair| pair[1] < pair[0])? + 1;
+    let (now, before, line) = (times[row], times[row - 1], block.lines[0] + row as u64);
+    (times.len() == block.rows).then(|| format!("{TIME_GOES_BACK} in line {line}: {now} follows {before}"))
 }
 
 /// Leaves out the first and last rows in which no column but the abscissa has a number; says how many.

@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 use uff::Values;
 use values::Place;
 
+pub use segment::BROKEN_OFF;
+
 struct Tdms {
     path: PathBuf,
     sets: Vec<Vec<Place>>,

@@ -16,6 +16,8 @@ const INTERLEAVED: u32 = 32;
 const BIG: u32 = 64;
 const DAQMX: u32 = 128;
 const LEAD: u64 = 28;
+/// How notes end of a file that stops before its last segment does.
+pub const BROKEN_OFF: &str = "the recording was broken off";
 /// Most objects of a file.
 const MOST_OBJECTS: usize = 1_000_000;
 /// Most scalers of a channel.
@@ -68,7 +70,7 @@ pub(super) fn objects(path: &Path) -> Read<(Vec<Object>, Vec<String>)> {
         at = reader.segment(&mut file, at, length)?;
     }
     if at < length {
-        reader.notes.push(format!("the last {} bytes are no whole segment: the recording was broken off", length - at));
+        reader.notes.push(format!("the last {} bytes are no whole segment: {BROKEN_OFF}", length - at));
     }
     Ok((reader.objects, reader.notes))
 }
@@ -90,9 +92,7 @@ impl Reader {
         let (next, raw) = (input.u64()?, input.u64()?);
         let end = if next == u64::MAX { length } else { at.saturating_add(LEAD).saturating_add(next) };
         if end > length {
-            self.notes.push(format!(
-                "the segment at byte {at} goes on behind the end of the file: the recording was broken off"
-            ));
+            self.notes.push(format!("the segment at byte {at} goes on behind the end of the file: {BROKEN_OFF}"));
         }
         let end = end.min(length);
         if toc & META != 0 {

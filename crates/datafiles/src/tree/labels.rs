@@ -3,6 +3,8 @@
 
 use super::names;
 use super::{Entry, Node};
+use crate::contents::Set;
+use crate::units::is_unit;
 
 /// Names and units of columns that lie beside the array.
 pub(super) struct Labels {
@@ -98,6 +100,23 @@ impl Labels {
         self.items.iter().find(|(list, _)| named(list)).map(|(_, texts)| texts)
     }
 
+    /// Units of which there is one a channel, where no channel has one of its own: that of the times, where they begin with one,
+    /// is passed over.
+    pub(super) fn one_each(&self, set: &mut Set) {
+        let is_time = |unit: &String| matches!(unit.trim(), "s" | "sec" | "ms");
+        let units = match &self.units[..] {
+            [first, rest @ ..] if is_time(first) && rest.len() == set.channels.len() => rest,
+            units => units,
+        };
+        let bare = set.channels.iter().all(|channel| channel.unit.is_empty());
+        if units.len() < 2 || units.len() != set.channels.len() || !bare {
+            return;
+        }
+        for (channel, unit) in set.channels.iter_mut().zip(units).filter(|(_, unit)| is_unit(unit.trim())) {
+            unit.trim().clone_into(&mut channel.unit);
+        }
+    }
+
     /// The arrays of a cell under the names that lie beside it, one each.
     pub(super) fn named_cells(&self, cells: &[Entry]) -> Option<Vec<Entry>> {
         let numbered = |entry: &Entry| entry.name.starts_with('{') && matches!(entry.node, Node::Array(_));
@@ -127,6 +146,24 @@ mod tests {
         fn read(&self, _: usize) -> Read<Flat> {
             unreachable!("no abscissa is looked for")
         }
+    }
+
+    /// Every channel an array of its own, their units in one list.
+    #[test]
+    fn units_of_a_list_are_those_of_the_channels_in_their_order() {
+        let array = |(id, name): (usize, &&str)| {
+            let shape = Shape::new([5], true);
+            Entry::new(*name, Node::Array(Array { id, shape, complex: false, peek: vec![[0.0; 2]; 4] }))
+        };
+        let of = |units: &[&str]| -> Vec<String> {
+            let mut entries: Vec<Entry> = ["Force_P7", "Acc_P7", "Acc_P9"].iter().enumerate().map(array).collect();
+            entries.push(Entry::new("units", Node::Text(units.iter().map(|&unit| unit.to_owned()).collect())));
+            let (found, _) = sets(&entries, &[], &Zeros).unwrap_or_default();
+            found.iter().flat_map(|set| &set.channels).map(|c| c.unit.clone()).collect()
+        };
+        assert_eq!(of(&["N", "g ", "g"]), ["N", "g", "g"]);
+        assert_eq!(of(&["s", "N", "g", "g"]), ["N", "g", "g"]);
+        assert_eq!(of(&["N", "g"]), ["", "", ""], "whose they are is not known");
     }
 
     /// Levels and phases of the same points: the names of the points are told apart by those of the arrays.

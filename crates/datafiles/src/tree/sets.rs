@@ -111,6 +111,7 @@ impl Made<'_> {
                 Node::Group(_) => {}
             }
         }
+        labels.one_each(&mut set);
         name_data(&mut set, path, entries, attributes);
         finish(&mut set, entries, attributes, axis);
         super::points::attach(&mut set, entries, attributes, self.arrays)?;

@@ -38,6 +38,11 @@ pub fn read(text: &str, file: &str) -> Result<Bulk, FileError> {
 /// Reads a deck with the files that it includes: the text of each and its name in messages.
 pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
     let texts: Vec<Cow<'_, str>> = parts.iter().map(|(text, _)| without_tabs(text)).collect();
+    if let (Some(text), Some((_, file))) = (texts.first(), parts.first())
+        && let Some(line) = cut_short(text)
+    {
+        return Err(FileError::line(file, line, Problem::EndsEarly { what: "the bulk data (no ENDDATA ends them)" }));
+    }
     let mut reader = Reader::default();
     for (text, (_, file)) in texts.iter().zip(parts) {
         for card in cards(text) {
@@ -45,6 +50,17 @@ pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
         }
     }
     reader.finish(parts.first().map_or("", |(_, file)| *file))
+}
+
+/// The last line of a deck whose bulk data begin and do not end: of a matrix any number of columns may be missing.
+fn cut_short(text: &str) -> Option<usize> {
+    let begins = text.lines().any(|line| {
+        let mut words = line.split_whitespace();
+        let [first, second] = [words.next(), words.next()].map(Option::unwrap_or_default);
+        first.eq_ignore_ascii_case("begin") && second.eq_ignore_ascii_case("bulk")
+    });
+    let is_end = |line: &str| line.trim_start().get(..7).is_some_and(|word| word.eq_ignore_ascii_case("enddata"));
+    (begins && !text.lines().any(is_end)).then(|| text.lines().count())
 }
 
 /// Files that a deck includes, with the lines (from 1) that say so.
@@ -251,6 +267,17 @@ ENDDATA
         assert_eq!((k.name.as_str(), k.size), ("KAAX", 2));
         assert_eq!(k.dofs.as_ref().unwrap()[1], NodeDof { node: 2, component: 3 });
         assert_eq!(k.entries, [(0, 0, 2500.0), (1, 0, -1000.0), (1, 1, 1000.0)]);
+    }
+
+    #[test]
+    fn a_deck_without_its_end_was_cut_short() {
+        for lines in [5, 13] {
+            let cut: String = SMALL.lines().take(lines).map(|line| format!("{line}\n")).collect();
+            let said = read(&cut, "m.bdf").unwrap_err().to_string();
+            let expected =
+                "the file ends in the middle of the bulk data (no ENDDATA ends them); copy or export it again";
+            assert_eq!(said, format!("m.bdf:{lines}: {expected}"));
+        }
     }
 
     #[test]
