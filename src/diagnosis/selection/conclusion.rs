@@ -27,6 +27,8 @@ pub(crate) const TOLERATED: f64 = 4.0;
 pub(crate) const UNTRUSTED: f64 = 0.35;
 /// Squared residual per datum from which on no law of the library gives what is missing.
 pub(super) const UNEXPLAINED: f64 = 100.0;
+/// Share of an error within which it is that which was promised.
+const PROMISED: f64 = 0.01;
 /// Most suggestions.
 const MOST: usize = 8;
 /// The same where time is up.
@@ -57,6 +59,8 @@ impl Outcome<'_> {
         let predictions = quiet.estimator().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = quiet.noise_floor(&best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet);
+        let promised = self.promised(&quiet, best)?;
+        let best = promised.as_ref().unwrap_or(best);
         let misfit = best.chi_square / reference.count().max(1) as f64;
         let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
@@ -101,6 +105,16 @@ impl Outcome<'_> {
             Verdict::Undecided
         };
         Ok(diagnosis)
+    }
+
+    /// The best fit with the error of the model as it is told, where that is not the one that it was found with.
+    fn promised(&self, quiet: &ReferenceModel, best: &FittedModel) -> Result<Option<FittedModel>, DiagnosisError> {
+        let is_near = |error: f64| (error - best.error).abs() <= PROMISED * best.error;
+        if !self.found.updated || is_near(quiet.error_of_followed(&best.effects, &best.starts)?) {
+            return Ok(None);
+        }
+        let error = quiet.error_of_structure(&best.effects, &best.starts)?;
+        Ok((!is_near(error)).then(|| FittedModel { error, ..best.clone() }))
     }
 
     /// The same where no effect was found: corrections alone, if they are an answer.
