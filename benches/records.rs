@@ -99,7 +99,14 @@ fn oscillator(c: &mut Criterion) {
     let by = |source| TransientParameter::Source { source, parameter: 0 };
     let parameters = [by(0), by(1), TransientParameter::Initial(0), TransientParameter::Initial(1)];
     let predicted = |substeps: usize| {
-        let forces = SampledForces { step: TAU / 20.0 / 24.0, samples: 15_279, forces: Vec::new(), substeps };
+        let forces = SampledForces {
+            step: TAU / 20.0 / 24.0,
+            samples: 15_279,
+            forces: Vec::new(),
+            substeps,
+            every: 1,
+            paces: Vec::new(),
+        };
         model.predict(&forces, &[0.1, 0.0], &parameters).unwrap_or_else(|error| panic!("{error}"))
     };
     let exact = predicted(256);

@@ -133,7 +133,14 @@ fn oscillation(p: &Oscillator) -> Result<Value> {
     let parameters = [by(0), by(1), TransientParameter::Initial(0), TransientParameter::Initial(1)];
     let mut answers = Vec::new();
     for substeps in [1, 4] {
-        let forces = SampledForces { step: p.step, samples: p.samples, forces: Vec::new(), substeps };
+        let forces = SampledForces {
+            step: p.step,
+            samples: p.samples,
+            forces: Vec::new(),
+            substeps,
+            every: 1,
+            paces: Vec::new(),
+        };
         let work = || model.predict(&forces, &[p.x0, 0.0], &parameters).map_err(|e| anyhow!("{e}"));
         let (found, seconds) = timed(5, work)?;
         answers.push(json!({ "substeps": substeps, "x": found.channels[0], "seconds": seconds }));

@@ -4,7 +4,7 @@ use crate::common::models::{oscillator, short_cantilever, source};
 use dashpot::effects::{Effect, Source};
 use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::transient::{
-    SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup,
+    Pace, SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup, has_exact_steps,
 };
 use dashpot::structure::{Part, Structure};
 
@@ -12,6 +12,7 @@ fn channels(list: &[(Quantity, usize)]) -> Vec<Channel> {
     list.iter().map(|&(quantity, dof)| Channel { quantity, dof, label: (dof + 1).to_string() }).collect()
 }
 
+#[derive(Clone)]
 struct Case {
     structure: Structure,
     sources: Vec<Source>,
@@ -82,7 +83,33 @@ impl Case {
 }
 
 fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
-    SampledForces { step, samples, forces: Vec::new(), substeps }
+    SampledForces { step, samples, forces: Vec::new(), substeps, every: 1, paces: Vec::new() }
+}
+
+/// Friction that holds a mode which a step does not resolve leaves derivatives that stay finite: the steps are cut to resolve it.
+#[test]
+fn derivatives_stay_finite_where_friction_holds_fast_modes() {
+    let (step, samples) = (4e-3, 2000);
+    let case = Case {
+        structure: short_cantilever(6),
+        sources: vec![source(Effect::Viscous, &[6], &[0.05]), source(Effect::Coulomb, &[10], &[0.5])],
+        channels: channels(&[(Quantity::Displacement, 4)]),
+        drives: vec![],
+        kept: 4,
+        forces: quiet(step, samples, 1),
+        initial: [vec![4e-3], vec![0.0; 7]].concat(),
+        factors: [1.0; 2],
+        shape_errors: vec![],
+        parts: vec![],
+        directions: vec![],
+        told_step: 1.0,
+    };
+    let parameters = [TransientParameter::Stiffness, TransientParameter::Initial(0), TransientParameter::Initial(3)];
+    let record = case.run(&parameters);
+    let most = |list: &[f64]| list.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for by in &record.derivatives {
+        assert!(most(&by[0][samples / 2..]) < 10.0 * most(&by[0][..samples / 2]), "{:.1e}", most(&by[0]));
+    }
 }
 
 /// Dry friction takes `2 F / k` from every half swing and holds the mass where the spring cannot move it.
@@ -115,6 +142,56 @@ fn friction_stops_where_it_should() {
     let rest = 0.05 - 8.0 * fall;
     assert!((record.channels[0][129] - rest).abs() < 1e-12);
     assert!(record.channels[1][120..].iter().all(|a| a.abs() < 1e-9));
+}
+
+/// Longer steps after a blow predict what short ones do, at every eighth sample and with the derivatives there: to the last digits where
+/// all is linear or friction keeps them short, elsewhere to the error of their length.
+#[test]
+fn long_steps_of_a_settled_record_predict_what_short_ones_do() {
+    let (step, samples) = (2e-4, 4001);
+    let blow = |n: usize| if n < 20 { 12.0 * (n as f64 / 20.0 * std::f64::consts::PI).sin() } else { 0.0 };
+    for (effect, values) in acting_laws() {
+        let case = Case {
+            structure: short_cantilever(6),
+            sources: vec![source(Effect::Viscous, &[6], &[0.5]), source(effect, &[8], &values)],
+            channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
+            drives: vec![10],
+            kept: 3,
+            forces: SampledForces { forces: vec![(0..samples).map(blow).collect()], ..quiet(step, samples, 1) },
+            initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
+            factors: [1.0; 2],
+            shape_errors: vec![],
+            parts: vec![],
+            directions: vec![],
+            told_step: 1.0,
+        };
+        let paces = [(2000, 2), (2800, 4)].map(|(from, samples)| Pace { from, samples }).to_vec();
+        let long = Case { forces: SampledForces { every: 8, paces, ..case.forces.clone() }, ..case.clone() };
+        let of_law = (0..values.len()).map(|parameter| TransientParameter::Source { source: 1, parameter });
+        let parameters: Vec<TransientParameter> =
+            of_law.chain([TransientParameter::Stiffness, TransientParameter::Initial(0)]).collect();
+        let (short, long) = (case.run(&parameters), long.run(&parameters));
+        // Contacts move the fast modes again and again, where no record has steps so long: their derivatives are not looked at.
+        let bounds = match effect {
+            effect if has_exact_steps(effect) => [1e-9, 1e-9],
+            Effect::Gap | Effect::Stop => [3e-2, f64::INFINITY],
+            _ => [3e-2, 0.3],
+        };
+        let alike = |short: &[f64], long: &[f64], bound: f64, what: &str| {
+            let short: Vec<f64> = short.iter().copied().step_by(8).collect();
+            assert_eq!(short.len(), long.len());
+            let size = |list: &[f64]| list.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let apart: Vec<f64> = short.iter().zip(long).map(|(a, b)| a - b).collect();
+            let off = size(&apart[250..]) / size(&short[250..]);
+            assert!(off < bound, "{effect} {what}: {off:.1e}");
+        };
+        for c in 0..2 {
+            alike(&short.channels[c], &long.channels[c], bounds[0], "record");
+            for (k, parameter) in parameters.iter().enumerate() {
+                alike(&short.derivatives[k][c], &long.derivatives[k][c], bounds[1], &format!("{parameter:?}"));
+            }
+        }
+    }
 }
 
 /// Parts of the beam with logarithms of their factors.
@@ -175,7 +252,14 @@ fn derivatives_are_those_of_the_record() {
             channels: channels(&[(Quantity::Acceleration, 4), (Quantity::Displacement, 10)]),
             drives: vec![10],
             kept: 3,
-            forces: SampledForces { step, samples: 700, forces: vec![drive.clone()], substeps: 2 },
+            forces: SampledForces {
+                step,
+                samples: 700,
+                forces: vec![drive.clone()],
+                substeps: 2,
+                every: 1,
+                paces: Vec::new(),
+            },
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
             shape_errors: vec![],
@@ -225,7 +309,14 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
         channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Displacement, 4)]),
         drives: vec![10],
         kept: 2,
-        forces: SampledForces { step, samples: samples.len(), forces: vec![samples.map(force).collect()], substeps: 1 },
+        forces: SampledForces {
+            step,
+            samples: samples.len(),
+            forces: vec![samples.map(force).collect()],
+            substeps: 1,
+            every: 1,
+            paces: Vec::new(),
+        },
         initial,
         factors: [1.0; 2],
         shape_errors: vec![],
@@ -302,8 +393,9 @@ fn parts_in_the_modes_of_the_model_are_those_of_the_structure() {
     }
 }
 
-/// Friction next to a clamp that holds for a while: what keeps it at rest swings from step to step where a residual coordinate
-/// that is faster than the steps is hardly damped (five times the record), and less where it only follows.
+/// Friction next to a clamp that holds for a while: where a residual coordinate or a kept mode is faster than the steps, what keeps it
+/// at rest swings from step to step (to five times the record). Steps that resolve the kept modes end that, whatever steps the model is
+/// told of.
 #[test]
 fn friction_that_holds_does_not_ring() {
     let case = |substeps: usize, told_step: f64| Case {
@@ -325,6 +417,8 @@ fn friction_that_holds_does_not_ring() {
         let apart: Vec<f64> = coarse.channels[0].iter().zip(&fine.channels[0]).map(|(a, b)| a - b).collect();
         size(&apart) / size(&fine.channels[0])
     };
-    let [damped, ringing] = [1.0, 1e-6].map(|told_step| off(&case(1, told_step).run(&[])));
-    assert!(damped < 0.2 * ringing && damped < 0.7, "{damped:.2} of {ringing:.2}");
+    for told_step in [1.0, 1e-6] {
+        let apart = off(&case(1, told_step).run(&[]));
+        assert!(apart < 0.7, "{told_step}: {apart:.2}");
+    }
 }

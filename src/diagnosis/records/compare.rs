@@ -196,7 +196,8 @@ pub(crate) fn short(records: &Records) -> f64 {
 pub(super) fn struck(record: &RecordData) -> Option<f64> {
     let loudest = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
     let acts = |n: &usize| record.forces.iter().any(|list| list[*n].abs() > STRUCK * loudest);
-    let end = (0..record.len()).rev().find(acts).unwrap_or(0) as f64 / record.len() as f64;
+    let samples = record.forces.first().map_or(record.len(), Vec::len);
+    let end = (0..samples).rev().find(acts).unwrap_or(0) as f64 / samples as f64;
     (end < 0.25).then_some(end)
 }
 

@@ -70,8 +70,11 @@ pub struct RecordData {
     pub largest: Vec<f64>,
     /// Rows of the driven DOFs.
     pub drives: Vec<usize>,
-    /// Their forces, N.
+    /// Their forces, N, of which there are `every` from one sample of the channels to the next.
     pub forces: Vec<Vec<f64>>,
+    pub every: usize,
+    /// Samples of the forces from which on steps of 2, 4, 8, ... of them resolve the motion.
+    pub settled: Vec<usize>,
     /// Standard deviation of the noise of each channel.
     pub noise: Vec<f64>,
     /// Standard deviation of every sample: its noise and what lies above the modes that are followed.
@@ -149,7 +152,8 @@ impl<'a> Records<'a> {
         let modes = structure.modes()?;
         let kept = self.kept.min(modes.len());
         let parts = PartDirections::new(structure, &modes, kept);
-        Ok(Records { structure, modes, kept, parts, ..self.clone() })
+        let list = self.list.iter().map(|r| r.clone().with_base_load(self.structure, structure)).collect();
+        Ok(Records { structure, modes, kept, parts, list, ..self.clone() })
     }
 
     /// Logarithms of the factors on the stiffness of the kept modes that stand for the parts of a fit.
@@ -226,7 +230,7 @@ impl<'a> Records<'a> {
             mode_damping,
             parts,
             directions: &[],
-            step: [record.step, record.step / record.substeps.max(1) as f64],
+            step: [record.force_step(), record.force_step() / record.substeps.max(1) as f64],
             shape_errors: &[],
         }
     }
@@ -318,6 +322,8 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         largest,
         drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
         forces: driven.iter().map(|&c| without_zero(run.samples(c))).collect(),
+        every: 1,
+        settled: Vec::new(),
         noise,
         sigma,
         by_force: Vec::new(),

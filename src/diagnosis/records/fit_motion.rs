@@ -8,7 +8,7 @@ use crate::measurement::{Channel, Quantity};
 use crate::response::transient::{TransientModel, TransientSetup};
 use std::f64::consts::TAU;
 
-/// Displacement (m), velocity (m/s) and acceleration (m/s^2) at every sample of a record.
+/// Displacement (m), velocity (m/s) and acceleration (m/s^2) at every sample of the forces on a record.
 pub(super) type MotionOfDof = [Vec<f64>; 3];
 
 /// Motion of every translation in every record.
@@ -65,7 +65,7 @@ fn of_record(records: &Records, fit: &FittedRecords, r: usize) -> Result<Vec<Opt
     let setup = records.setup(record, &sources, fit.factors(r), ([&fit.modes, &fit.damping], &parts));
     let failed = |reason| RecordError::Model { file: record.file.clone(), reason };
     let model = TransientModel::new(&TransientSetup { channels: &channels, ..setup }).map_err(failed)?;
-    let forces = record.excitation(record.len(), model.is_linear());
+    let forces = record.excitation(model.is_linear());
     let mut lists = model.predict(&forces, &fit.initial[r], &[]).map_err(failed)?.channels.into_iter();
     let mut motion = vec![None; records.structure.len()];
     for dof in rows {

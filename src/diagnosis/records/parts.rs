@@ -6,6 +6,7 @@
 
 use super::compare::struck;
 use super::data::{RecordData, Records};
+use super::evidence::alike;
 use super::weights::local;
 
 /// Periods of the dominant motion in the shortest parts.
@@ -29,6 +30,10 @@ const ABOVE_NOISE: f64 = 6.0;
 const SAMPLES: f64 = 24.0;
 /// Phase of the highest motion, rad, that a step of the model may cover in a part and in a whole record.
 const STEP_PHASE: [f64; 2] = [0.4, 0.2];
+/// Samples of all channels of all parts that are enough for a search, and samples over which what a model leaves stays alike for each
+/// that is kept: eight of them tell all that there is.
+const ENOUGH: usize = 16_000;
+const ALIKE: f64 = 8.0;
 /// Fewest samples of a part.
 const FEWEST: usize = 48;
 
@@ -41,12 +46,24 @@ impl Records<'_> {
         let mut levels = Vec::new();
         let mut periods = PERIODS;
         while let Some(parts) = self.in_parts(periods) {
-            levels.push(parts);
+            levels.push(parts.with_enough_samples());
             periods *= growth;
         }
         let whole = self.list.iter().map(|r| r.part(0, r.len(), STEP_PHASE[1])).collect();
-        levels.push(Self { list: whole, ..self.clone() });
+        levels.push(Self { list: whole, ..self.clone() }.with_enough_samples());
         levels
+    }
+
+    /// The same with as many samples of the channels as tell: of many, of which what a model leaves stays alike over [`ALIKE`] times as
+    /// many, one in a few. The forces keep theirs.
+    fn with_enough_samples(mut self) -> Self {
+        let most = (self.samples() / ENOUGH).min((alike(&self, 1.0) / ALIKE) as usize).max(1);
+        // Steps of the model may be as long as that, by powers of two.
+        let every = 1 << most.ilog2();
+        if every > 1 {
+            self.list.iter_mut().for_each(|record| record.thin(every));
+        }
+        self
     }
 
     /// Parts of `periods` periods of the dominant motion; `None` where they are half of every record.
@@ -126,6 +143,8 @@ impl RecordData {
             largest: self.largest.clone(),
             drives: self.drives.clone(),
             forces: shortened(&self.forces),
+            every: self.every,
+            settled: Vec::new(),
             noise: self.noise.clone(),
             sigma: shortened(&self.sigma),
             by_force: Vec::new(),
@@ -135,6 +154,16 @@ impl RecordData {
             median_hz: self.median_hz,
             highest_hz: self.highest_hz,
         }
+    }
+
+    /// Keeps one of `every` samples of the channels.
+    fn thin(&mut self, every: usize) {
+        self.settled = self.settled(every);
+        for list in self.samples.iter_mut().chain(&mut self.sigma) {
+            *list = list.iter().copied().step_by(every).collect();
+        }
+        self.every *= every;
+        self.step *= every as f64;
     }
 
     /// One of how many samples is enough.

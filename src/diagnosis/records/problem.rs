@@ -4,7 +4,7 @@
 //! logarithms of factors with priors. Of a record: `2 m` entries of its initial state, free, and a logarithm of stiffness with
 //! the prior of re-seating.
 
-use super::data::Records;
+use super::data::{RecordData, Records};
 use super::fitted::FittedRecords;
 use super::part_directions::{ALL, MODE};
 use super::variables::{at_variable, variable};
@@ -50,7 +50,7 @@ impl Free {
     /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not.
     pub(super) fn all(records: &Records) -> Self {
         let mut corrections = vec![true; 2 + records.sizes() + modes(records) + records.parts.len()];
-        let driven = records.list.iter().any(|r| !r.forces.is_empty());
+        let driven = records.list.iter().any(RecordData::shows_mass);
         corrections[1 + records.sizes() + modes(records)] = driven && !records.parts.is_empty();
         Self { corrections, shifts: true, shapes: true, effects: true }
     }

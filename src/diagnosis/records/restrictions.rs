@@ -42,7 +42,7 @@ impl<'a> Restrictions<'a> {
     /// # Errors
     /// [`RecordError`]: a model that cannot be predicted.
     pub(super) fn new(search: &'a Search<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
-        let count = Free::all(search.records).corrections.len();
+        let count = Free::all(search.whole()).corrections.len();
         let problem = problem(search, vec![true; count]);
         let scales = scales(&fit.effects);
         let products = |r: usize| -> Result<_, RecordError> {
@@ -50,8 +50,8 @@ impl<'a> Restrictions<'a> {
             derivatives.left = problem.left_of(fit, r, Steps::Fine)?;
             Ok(derivatives.products(1.0))
         };
-        let parts = search.control.map(search.records.list.len(), products);
-        let size = problem.shared(fit) + search.records.list.len() * problem.local();
+        let parts = search.control.map(search.whole().list.len(), products);
+        let size = problem.shared(fit) + search.whole().list.len() * problem.local();
         let mut normal = Normal { matrix: Mat::zeros(size, size), gradient: vec![0.0; size], left: Left::default() };
         for part in parts {
             normal.add(&part?);
@@ -81,7 +81,7 @@ impl<'a> Restrictions<'a> {
         let count = free.iter().filter(|free| **free).count();
         let cost = (fit.chi_square + prior + more) / unit + count as f64 * information(fit, unit);
         let size = |k: usize| (values[k] + change[first + k], (unit * variance[first + k]).sqrt());
-        let last = 1 + self.search.records.sizes() + modes(self.search.records);
+        let last = 1 + self.search.whole().sizes() + modes(self.search.whole());
         Some(Restricted { cost, sizes: (1..last).map(size).collect() })
     }
 
@@ -103,21 +103,21 @@ impl<'a> Restrictions<'a> {
             let taken = |solved: &Mat<f64>| (0..others.len()).map(|i| beside[(i, 0)] * solved[(i, 0)]).sum::<f64>();
             (matrix[(shift, shift)] - solved.as_ref().map_or(0.0, taken)).max(0.0)
         };
-        (0..self.search.records.list.len()).map(information_of_shift).collect()
+        (0..self.search.whole().list.len()).map(information_of_shift).collect()
     }
 
     /// Values of all corrections, in the order of their variables.
     fn corrections(&self) -> Vec<f64> {
         let fit = self.fit;
-        let sizes = fit.known.iter().chain(&fit.damping).chain(fit.modes.iter().take(modes(self.search.records)));
+        let sizes = fit.known.iter().chain(&fit.damping).chain(fit.modes.iter().take(modes(self.search.whole())));
         let all = std::iter::once(&fit.stiffness).chain(sizes).chain([&fit.mass]).chain(&fit.parts);
         all.copied().collect()
     }
 }
 
-fn problem<'a>(search: &Search<'a>, corrections: Vec<bool>) -> FitProblem<'a> {
+fn problem<'a>(search: &'a Search<'_>, corrections: Vec<bool>) -> FitProblem<'a> {
     let free = Free { corrections, shifts: true, shapes: true, effects: false };
-    FitProblem { records: search.records, free, share: 1.0, control: search.control }
+    FitProblem { records: search.whole(), free, share: 1.0, control: search.control }
 }
 
 /// The least of `-2 g^T d + d^T N d` where only what is `moving` differs from `change`, which becomes `d`; and the variance of all of it.
@@ -179,7 +179,7 @@ mod tests {
         let runs = decays(&drawn, &truth);
         let (records, control) = (Records::new(&structure, &known, &runs).unwrap(), Control::unattended());
         let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
-        let records = search.records;
+        let records = search.whole();
         let start = FittedRecords { initial: truth.initial, ..FittedRecords::start(records, &[]) };
         let fit = |corrections: Vec<bool>, start: &FittedRecords| {
             let free = Free { corrections, shifts: true, shapes: true, effects: false };

@@ -215,10 +215,10 @@ impl Forced {
     /// What the channels show of the force of a source along the motion, one of `every` samples.
     fn under(&self, source: &Source, record: &RecordData, every: usize) -> Option<Vec<Vec<f64>>> {
         let [d, v, a] = &self.motion;
-        let force = force_along(source, [d, v, a], record.step)?;
+        let force = force_along(source, [d, v, a], record.force_step())?;
         let against: Vec<f64> = force.iter().map(|f| -f).collect();
         let forces = if self.drives > 1 { vec![against, force] } else { vec![against] };
-        Some(self.model.forced(&forces, Hold::FirstOrder, record.step, every))
+        Some(self.model.forced(&forces, Hold::FirstOrder, record.force_step(), every * record.every))
     }
 }
 
@@ -334,7 +334,14 @@ mod tests {
         let channel =
             |dof: usize| Channel { quantity: Quantity::Displacement, dof, label: structure.label(dof).into() };
         let channels: Vec<Channel> = (0..3).map(channel).collect();
-        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 4 };
+        let forces = SampledForces {
+            step: STEP,
+            samples: SAMPLES,
+            forces: Vec::new(),
+            substeps: 4,
+            every: 1,
+            paces: Vec::new(),
+        };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
         let mut state = 1_u64;

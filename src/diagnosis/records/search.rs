@@ -118,6 +118,11 @@ impl Search<'_> {
         self.problem(level, share).begin(start, rounds)
     }
 
+    /// The whole records with the samples on which sets are fitted.
+    pub(super) fn whole(&self) -> &Records<'_> {
+        self.levels.last().unwrap_or(self.records)
+    }
+
     /// The fit of the first `share` of every part of `level`, everything free.
     pub(super) fn problem(&self, level: usize, share: f64) -> FitProblem<'_> {
         let records = &self.levels[level];

@@ -28,7 +28,7 @@ impl Search<'_> {
     /// Fits of one mass or spring to whole records, best first, where `corrected` needs the stiffness of single modes and they do
     /// not.
     pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
-        let records = self.records;
+        let records = self.whole();
         let fit = |start: &FittedRecords| {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control: self.control }
                 .improve(start, STEPS)

@@ -28,30 +28,38 @@ impl RecordData {
 
     /// The same as short as its motion asks for.
     pub(super) fn fine_steps(&self) -> usize {
-        self.steps_between(self.step, STEP_PHASE)
+        self.steps_between(self.force_step(), STEP_PHASE)
     }
 
     /// Whether there are longer steps than [`Self::substeps`] for the course of a fit.
     pub(super) fn has_coarse_steps(&self) -> bool {
-        self.steps(Steps::Coarse) < self.substeps
+        self.steps(Steps::Coarse) < self.substeps || !self.paces(self.every).is_empty()
     }
 
     fn steps(&self, steps: Steps) -> usize {
         match steps {
             Steps::Fine => self.substeps,
-            Steps::Coarse => self.steps_between(self.step, COARSE_PHASE).min(self.substeps),
+            Steps::Coarse => self.steps_between(self.force_step(), COARSE_PHASE).min(self.substeps),
         }
     }
 
-    /// The measured forces of the first `samples` samples.
-    pub(crate) fn excitation(&self, samples: usize, linear: bool) -> SampledForces {
-        self.excitation_in(samples, linear, Steps::Fine)
+    /// Time from one sample of the forces to the next, s.
+    pub(super) fn force_step(&self) -> f64 {
+        self.step / self.every as f64
     }
 
-    /// The same in steps of some length.
+    /// The measured forces, with all samples to be predicted that they have.
+    pub(super) fn excitation(&self, linear: bool) -> SampledForces {
+        SampledForces { every: 1, paces: Vec::new(), ..self.excitation_in(self.len(), linear, Steps::Fine) }
+    }
+
+    /// Those up to sample `samples` of the channels, in steps of some length.
     pub(super) fn excitation_in(&self, samples: usize, linear: bool, steps: Steps) -> SampledForces {
+        let (every, step) = (self.every, self.force_step());
+        let samples = (samples.max(1) - 1) * every + 1;
         let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
         let substeps = if linear { 1 } else { self.steps(steps) };
-        SampledForces { step: self.step, samples, forces, substeps }
+        let longest = if linear || steps == Steps::Coarse { self.every } else { self.every / 2 };
+        SampledForces { step, samples, forces, substeps, every, paces: self.paces(longest) }
     }
 }

@@ -6,7 +6,7 @@
 //! which no project states, stay free meanwhile, or the rest would bend to them; the promise is made without them.
 
 use super::compare::started_from;
-use super::data::RecordError;
+use super::data::{RecordData, RecordError};
 use super::evidence::{AGREES, information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
@@ -134,7 +134,7 @@ impl Search<'_> {
             choices.push(choice(false, true, false));
         }
         // A motion without a force shows no mass.
-        if self.records.list.iter().any(|r| !r.forces.is_empty()) {
+        if self.records.list.iter().any(RecordData::shows_mass) {
             choices.push(choice(true, false, true));
             if fit.mass != 0.0 && count > 0 {
                 choices.push(choice(false, true, true));
@@ -163,20 +163,21 @@ impl Search<'_> {
         best: &mut Option<(FittedRecords, usize)>,
     ) -> Result<(), RecordError> {
         let mut next = self.fitted_anew(&self.start_of(choice), choice.free.clone())?;
-        let mut found = vec![(next.clone(), number(&choice.free))];
+        let mut found = vec![(next.clone(), choice.free.clone())];
         let free = self.kept(&mut next, choice.free.clone());
         if choice.by_mode || free != choice.free {
-            found.push((self.fitted_anew(&next, free.clone())?, number(&free)));
+            found.push((self.fitted_anew(&next, free.clone())?, free));
         }
-        for mut own in found {
-            let told = &mut own.0;
-            keep_deviations(told, choice.fit);
+        let first_mode = 1 + self.records.sizes();
+        for (mut told, free) in found {
+            keep_deviations(&mut told, choice.fit);
             if choice.stiffness || choice.by_mode {
-                without_common_shift(told, choice.by_mode, weights);
-            } else if common_shift(told, weights).abs() >= LEAST[1] {
+                without_common_shift(&mut told, choice.by_mode.then(|| &free[first_mode..]), weights);
+            } else if common_shift(&told, weights).abs() >= LEAST[1] {
                 // What all records have in common is no scatter, and no project states it as that.
                 continue;
             }
+            let own = (told, number(&free));
             if best.as_ref().is_none_or(|best| is_plainer(&own, best)) {
                 *best = Some(own);
             }
@@ -203,7 +204,7 @@ impl Search<'_> {
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         // What an effect is worth is told by the fit in which all else was free, or it would stand for what is held here.
         let free = Free { corrections, shifts: true, shapes: true, effects: false };
-        let problem = FitProblem { records: self.records, free, share: 1.0, control: self.control };
+        let problem = FitProblem { records: self.whole(), free, share: 1.0, control: self.control };
         match problem.begin(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
@@ -282,15 +283,20 @@ fn common_shift(told: &FittedRecords, weights: &[f64]) -> f64 {
     if all > 0.0 { dot(&told.shifts, weights) / all } else { 0.0 }
 }
 
-/// Puts what the shifts of all records have in common on the stiffness of the modes, or on all stiffness: the same model.
-fn without_common_shift(told: &mut FittedRecords, by_mode: bool, weights: &[f64]) {
+/// Puts what the shifts of all records have in common on the stiffness of the modes, of which these are `free`, or on all stiffness where
+/// there is no list of them: the same model. A mode that was held is known as well as that is.
+fn without_common_shift(told: &mut FittedRecords, free: Option<&[bool]>, weights: &[f64]) {
     let common = common_shift(told, weights);
     told.shifts.iter_mut().for_each(|v| *v -= common);
-    if by_mode {
-        told.modes.iter_mut().for_each(|v| *v += common);
-    } else {
+    let Some(free) = free else {
         told.stiffness += common;
-    }
+        return;
+    };
+    told.modes.iter_mut().for_each(|v| *v += common);
+    let first = parameters(told) + 1 + told.known.len() + told.damping.len();
+    let deviation = weights.iter().sum::<f64>().sqrt().recip();
+    let held = told.deviations.iter_mut().skip(first).zip(free).take(told.modes.len());
+    held.filter(|(_, free)| !**free).for_each(|(own, _)| *own = deviation);
 }
 
 /// Number of corrections that are free.
@@ -345,6 +351,21 @@ mod tests {
         let fit = FittedRecords { known: vec![0.2], chi_square: 400.0, count: 400, deviations, ..start };
         let (own, sizes) = search.by_sizes(&fit).swap_remove(0);
         (own.known[0], sizes[0])
+    }
+
+    /// What all records have in common moves every mode; one that was held before is known as well as that.
+    #[test]
+    fn a_mode_that_was_held_is_known_as_well_as_the_common_shift() {
+        let mut told = FittedRecords {
+            modes: vec![0.01, 0.0],
+            shifts: vec![0.004, 0.0],
+            ..FittedRecords::of_effects(vec![], 1.0)
+        };
+        told.deviations = vec![1.0, 2e-3, 1.0];
+        without_common_shift(&mut told, Some(&[true, false]), &[300.0, 100.0]);
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(near(&told.modes, &[0.013, 0.003]) && near(&told.shifts, &[0.001, -0.003]), "{told:?}");
+        assert!(near(&told.deviations, &[1.0, 2e-3, 0.05]), "{:?}", told.deviations);
     }
 
     /// A power law of exponent 1 is the dashpot: what it takes over the dashpot loses, however uncertain the share of each.

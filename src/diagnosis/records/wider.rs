@@ -109,7 +109,8 @@ impl Search<'_> {
         for (r, record) in self.levels[level].list.iter().enumerate() {
             let [d, v, a] = motion.relative(leg, r)?;
             let along = [&d[..], &v, &a];
-            let (own, wanted) = (force_along(&source, along, record.step)?, force_along(law, along, record.step)?);
+            let [own, wanted] = [&source, law].map(|s| force_along(s, along, record.force_step()));
+            let (own, wanted) = (own?, wanted?);
             product += dot(&own, &wanted);
             square += dot(&own, &own);
         }

@@ -83,7 +83,14 @@ mod tests {
         let channels: Vec<Channel> =
             quantities.iter().flat_map(|q| (0..3).map(move |dof| (q, dof))).map(|(q, dof)| channel(q, dof)).collect();
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
-        let forces = SampledForces { step: STEP, samples: SAMPLES, forces: Vec::new(), substeps: 1 };
+        let forces = SampledForces {
+            step: STEP,
+            samples: SAMPLES,
+            forces: Vec::new(),
+            substeps: 1,
+            every: 1,
+            paces: Vec::new(),
+        };
         model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels
     }
 

@@ -70,6 +70,11 @@ impl Derivatives {
         }
     }
 
+    /// Goes on with changes over steps of another length.
+    pub(super) fn set_changes(&mut self, changes: Changes) {
+        self.changes = changes;
+    }
+
     /// Number of parameters.
     pub(super) fn len(&self) -> usize {
         self.order.len()

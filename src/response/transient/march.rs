@@ -78,6 +78,13 @@ impl<'a> March<'a> {
         Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }
     }
 
+    /// Goes on in steps of `length` s under polynomials of `sample` s of so many drives.
+    pub(super) fn set_step(&mut self, [length, sample]: [f64; 2], changes: &[LinearChange], drives: usize) {
+        self.step = Step::new(self.system, length, sample);
+        self.receptance = Receptance::new(self.views, &self.step);
+        self.derivatives.set_changes(Changes::new(self.system, &self.step, changes, [self.elements.len(), drives]));
+    }
+
     /// One step under the drives.
     pub(super) fn advance(&mut self, drives: &[Polynomial]) -> Result<(), TransientError> {
         let step = std::mem::replace(&mut self.step, Step::empty());

@@ -4,7 +4,7 @@ use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear
 use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
-use super::hold::{Hold, Polynomial, shifted};
+use super::hold::Polynomial;
 use super::march::March;
 use super::reduction::Reduction;
 use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
@@ -91,6 +91,12 @@ impl TransientModel {
         self.legs.is_empty()
     }
 
+    /// Natural frequency of the highest kept mode, rad/s, where friction may hold it.
+    fn held_by_friction(&self) -> Option<f64> {
+        let holds = self.legs.iter().any(|(_, _, form, ..)| *form == Form::Friction);
+        holds.then(|| self.reduction.omega[..self.kept()].iter().copied().fold(0.0, f64::max))
+    }
+
     /// The record from `initial`: displacements of the kept modes times `sqrt(kg)`, then their velocities divided by the
     /// natural frequency (those of rigid bodies as they are), and its derivatives by `parameters`.
     ///
@@ -102,32 +108,41 @@ impl TransientModel {
         initial: &[f64],
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, TransientError> {
-        let substeps = forces.substeps.max(1);
-        let length = forces.step / substeps as f64;
-        let held: Vec<Vec<Polynomial>> =
-            forces.forces.iter().map(|force| Hold::BandLimited.polynomials(&force[..forces.samples])).collect();
-        let first: Vec<[f64; 2]> = held.iter().map(|list| at_start(list, forces.step)).collect();
-        let (mut march, mut writer) = self.start(initial, &first, parameters, [length, forces.step]);
-        let count = self.sensors.len();
-        let mut channels = vec![Vec::with_capacity(forces.samples); count];
-        let mut derivatives = vec![vec![Vec::with_capacity(forces.samples); count]; parameters.len()];
-        let mut modal = self.no_modal(parameters, forces.samples);
-        let mut drives = vec![Polynomial::default(); held.len()];
-        let mut inputs = vec![0.0; self.legs.len() + held.len()];
-        for n in 0..forces.samples {
-            for k in 0..if n == 0 { 0 } else { substeps } {
-                let s = k as f64 / substeps as f64;
-                let from = |drive: &Polynomial| if k == 0 { *drive } else { shifted(drive, s) };
-                drives.iter_mut().zip(&held).for_each(|(drive, list)| *drive = from(&list[n - 1]));
-                march.advance(&drives)?;
+        let stretches = forces.stretches(self.held_by_friction());
+        let first = stretches[0].begin(forces.step);
+        let lengths = stretches[0].lengths(forces.step);
+        let changes: Vec<LinearChange> = parameters.iter().filter_map(|p| self.change(*p)).collect();
+        let (mut march, mut writer) = self.start(initial, &first, (parameters, &changes), lengths);
+        let (count, every) = (self.sensors.len(), forces.every.max(1));
+        let predicted = forces.samples.div_ceil(every);
+        let mut channels = vec![Vec::with_capacity(predicted); count];
+        let mut derivatives = vec![vec![Vec::with_capacity(predicted); count]; parameters.len()];
+        let mut modal = self.no_modal(parameters, predicted);
+        let mut drives = vec![Polynomial::default(); first.len()];
+        let mut inputs = vec![0.0; self.legs.len() + first.len()];
+        for (k, stretch) in stretches.iter().enumerate() {
+            if k > 0 {
+                let lengths = stretch.lengths(forces.step);
+                march.set_step(lengths, &changes, first.len());
+                writer.set_step(&self.system, &self.sensors, lengths);
             }
-            inputs[self.legs.len()..].iter_mut().zip(&forces.forces).for_each(|(u, list)| *u = list[n]);
-            writer.moved = n > 0;
-            self.write(&march, &mut writer, &mut inputs, &mut channels);
-            if !derivatives.is_empty() {
-                self.write_derivatives(&mut march, &mut writer, &inputs, &mut derivatives);
+            let begin = if k == 0 { 0 } else { stretch.from + stretch.samples };
+            for n in (begin..=stretch.to).step_by(stretch.samples) {
+                for part in 0..if n == 0 { 0 } else { stretch.substeps } {
+                    stretch.drives(n - stretch.samples, part, &mut drives);
+                    march.advance(&drives)?;
+                }
+                if !n.is_multiple_of(every) {
+                    continue;
+                }
+                stretch.inputs(n, &mut inputs[self.legs.len()..]);
+                writer.moved = n > 0;
+                self.write(&march, &mut writer, &mut inputs, &mut channels);
+                if !derivatives.is_empty() {
+                    self.write_derivatives(&mut march, &mut writer, &inputs, &mut derivatives);
+                }
+                writer.write_modal(&march, &inputs, &mut modal);
             }
-            writer.write_modal(&march, &inputs, &mut modal);
         }
         writer.write_gathered(&march.derivatives.order, &mut derivatives, true);
         if !march.z.iter().all(|z| z.is_finite()) {
@@ -177,18 +192,15 @@ impl TransientModel {
         &self,
         initial: &[f64],
         drives: &[[f64; 2]],
-        parameters: &[TransientParameter],
+        (parameters, changes): (&[TransientParameter], &[LinearChange]),
         steps: [f64; 2],
     ) -> (March<'_>, Writer) {
         let state = self.modes_of(initial, drives);
         let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
         let elements: Vec<Element> = self.legs.iter().map(element).collect();
-        let mut changes: Vec<LinearChange> = Vec::new();
         let mut sensitivities = Vec::new();
         for parameter in parameters {
-            let change = self.change(*parameter);
-            let changes_linear_part = change.is_some();
-            changes.extend(change);
+            let changes_linear_part = self.changes_linear_part(*parameter);
             let state = self.initial_derivative(*parameter, initial.len(), drives);
             let own = match *parameter {
                 TransientParameter::Source { source, parameter } => Some((source, parameter)),
@@ -197,9 +209,9 @@ impl TransientModel {
             sensitivities.push(Sensitivity { state, own, changes_linear_part });
         }
         let widths = [elements.len(), self.kept(), parameters.len()];
-        let writer = Writer::new(&self.system, &self.sensors, widths, &changes, steps);
+        let writer = Writer::new(&self.system, &self.sensors, widths, changes, steps);
         let from = (state, drives.len());
-        (March::new(&self.system, &self.views, elements, from, (sensitivities, &changes), steps), writer)
+        (March::new(&self.system, &self.views, elements, from, (sensitivities, changes), steps), writer)
     }
 
     /// How the initial state, of `count` entries under the `drives`, changes with a parameter.
@@ -218,6 +230,10 @@ impl TransientModel {
             }
             _ => vec![0.0; 2 * self.system.lambda.len()],
         }
+    }
+
+    fn changes_linear_part(&self, parameter: TransientParameter) -> bool {
+        matches!(parameter, TransientParameter::Mode(_)) || self.changes.iter().any(|(p, _)| *p == parameter)
     }
 
     fn change(&self, parameter: TransientParameter) -> Option<LinearChange> {
@@ -293,9 +309,4 @@ impl TransientModel {
             *row += element.instant_by(p, by.own[l][p], d, v, side);
         }
     }
-}
-
-/// A force at its start, and its rate there, of samples `step` s apart.
-fn at_start(force: &[Polynomial], step: f64) -> [f64; 2] {
-    force.first().map_or([0.0; 2], |first| [first[0], first[1] / step])
 }

@@ -99,6 +99,20 @@ pub struct SampledForces {
     pub forces: Vec<Vec<f64>>,
     /// Steps of the model from one sample to the next.
     pub substeps: usize,
+    /// What is predicted are every so many samples, the first of them the first.
+    pub every: usize,
+    /// Longer steps from some samples on, in their order; none where all are as short as `substeps` says. What is predicted lies
+    /// between them.
+    pub paces: Vec<Pace>,
+}
+
+/// Steps of several samples, over which forces go on straight between their means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pace {
+    /// Number of the sample from which on a step is so long.
+    pub from: usize,
+    /// Samples that a step covers.
+    pub samples: usize,
 }
 
 /// A predicted record.

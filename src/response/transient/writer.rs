@@ -63,12 +63,10 @@ impl Writer {
         changes: &[LinearChange],
         steps: [f64; 2],
     ) -> Self {
-        let step = Step::new(system, steps[0], steps[1]);
-        let late = |f: &Functional| (0..elements).map(|l| step.ramp(l, &f.row)).collect::<Vec<f64>>();
         let stride_of_all = stride(parameters);
-        Self {
+        let mut writer = Self {
             changes: sensors.iter().map(|sensor| changes_seen(system, sensor, changes)).collect(),
-            late: sensors.iter().flat_map(|s| late(&s.functional)).collect(),
+            late: Vec::new(),
             elements,
             moved: false,
             seen: Vec::with_capacity(elements),
@@ -79,8 +77,18 @@ impl Writer {
             changed: vec![0.0; stride(changes.len())],
             gathered: vec![Vec::with_capacity(GATHERED * stride_of_all); sensors.len()],
             modes: [0, 1, 2]
-                .map(|order| modes_seen(system, kept, order).into_iter().map(|f| (f.clone(), late(&f))).collect()),
-        }
+                .map(|order| modes_seen(system, kept, order).into_iter().map(|f| (f, Vec::new())).collect()),
+        };
+        writer.set_step(system, sensors, steps);
+        writer
+    }
+
+    /// Goes on with steps of another length.
+    pub(super) fn set_step(&mut self, system: &LinearSystem, sensors: &[Sensor], [length, sample]: [f64; 2]) {
+        let (step, elements) = (Step::new(system, length, sample), self.elements);
+        let late = |f: &Functional| (0..elements).map(|l| step.ramp(l, &f.row)).collect::<Vec<f64>>();
+        self.late = sensors.iter().flat_map(|s| late(&s.functional)).collect();
+        self.modes.iter_mut().flatten().for_each(|(f, own)| *own = late(f));
     }
 
     /// Notes what the forces on the structure, the first of the inputs, are beyond the mean `forces` of the elements.

@@ -155,15 +155,15 @@ mod tests {
             let shape = Shape::new([5], true);
             Entry::new(*name, Node::Array(Array { id, shape, complex: false, peek: vec![[0.0; 2]; 4] }))
         };
-        let of = |units: &[&str]| -> Vec<String> {
+        let units_with = |units: &[&str]| -> Vec<String> {
             let mut entries: Vec<Entry> = ["Force_P7", "Acc_P7", "Acc_P9"].iter().enumerate().map(array).collect();
             entries.push(Entry::new("units", Node::Text(units.iter().map(|&unit| unit.to_owned()).collect())));
             let (found, _) = sets(&entries, &[], &Zeros).unwrap_or_default();
             found.iter().flat_map(|set| &set.channels).map(|c| c.unit.clone()).collect()
         };
-        assert_eq!(of(&["N", "g ", "g"]), ["N", "g", "g"]);
-        assert_eq!(of(&["s", "N", "g", "g"]), ["N", "g", "g"]);
-        assert_eq!(of(&["N", "g"]), ["", "", ""], "whose they are is not known");
+        assert_eq!(units_with(&["N", "g ", "g"]), ["N", "g", "g"]);
+        assert_eq!(units_with(&["s", "N", "g", "g"]), ["N", "g", "g"]);
+        assert_eq!(units_with(&["N", "g"]), ["", "", ""], "whose they are is not known");
     }
 
     /// Levels and phases of the same points: the names of the points are told apart by those of the arrays.
