@@ -13,7 +13,6 @@ use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison, RunComparison};
 use crate::diagnosis::residual::whiteness::Whiteness;
 use crate::diagnosis::updating::detuning::{Detuning, detuning};
-
 use crate::diagnosis::{Comparison, DiagnosisError, Problem, compare};
 use crate::exchange::{Project, project::load};
 use crate::session::validation::{only_records, problem};
