@@ -70,8 +70,9 @@ pub struct RecordData {
     pub largest: Vec<f64>,
     /// Rows of the driven DOFs.
     pub drives: Vec<usize>,
-    /// Their forces, N, of which there are `every` from one sample of the channels to the next.
+    /// Their forces, N.
     pub forces: Vec<Vec<f64>>,
+    /// Samples of the forces from one sample of the channels to the next; where there are none, shares of that time.
     pub every: usize,
     /// Samples of the forces from which on steps of 2, 4, 8, ... of them resolve the motion.
     pub settled: Vec<usize>,
