@@ -105,7 +105,7 @@ fn oscillator(c: &mut Criterion) {
             forces: Vec::new(),
             substeps,
             every: 1,
-            paces: Vec::new(),
+            step_lengths: Vec::new(),
         };
         model.predict(&forces, &[0.1, 0.0], &parameters).unwrap_or_else(|error| panic!("{error}"))
     };

@@ -139,7 +139,7 @@ fn oscillation(p: &Oscillator) -> Result<Value> {
             forces: Vec::new(),
             substeps,
             every: 1,
-            paces: Vec::new(),
+            step_lengths: Vec::new(),
         };
         let work = || model.predict(&forces, &[p.x0, 0.0], &parameters).map_err(|e| anyhow!("{e}"));
         let (found, seconds) = timed(5, work)?;

@@ -21,35 +21,35 @@ const SETTLED: f64 = 1e-9;
 const WITHIN_NOISE: f64 = 0.01;
 
 /// A band and its modes.
-pub(super) struct Stretch {
+pub(super) struct FittedBand {
     pub band: Band,
     pub modes: Vec<ExtractedMode>,
 }
 
 /// All modes, ascending.
-pub(super) fn settled(mut stretches: Vec<Stretch>, control: &Control) -> Result<Vec<ExtractedMode>, ClassicalError> {
-    without_doubles(&mut stretches);
+pub(super) fn settled(mut bands: Vec<FittedBand>, control: &Control) -> Result<Vec<ExtractedMode>, ClassicalError> {
+    without_doubles(&mut bands);
     for _ in 0..ROUNDS {
         let mut moving = false;
-        for k in 0..stretches.len() {
+        for k in 0..bands.len() {
             control.check()?;
-            moving |= fit_again(&mut stretches, k)?;
+            moving |= fit_again(&mut bands, k)?;
         }
         if !moving {
             break;
         }
     }
-    without_doubles(&mut stretches);
-    let mut modes: Vec<ExtractedMode> = stretches.into_iter().flat_map(|s| s.modes).collect();
+    without_doubles(&mut bands);
+    let mut modes: Vec<ExtractedMode> = bands.into_iter().flat_map(|s| s.modes).collect();
     modes.sort_by(|a, b| a.pole.norm().total_cmp(&b.pole.norm()));
     Ok(modes)
 }
 
 /// One mode that two bands found belongs to the first; growing and overdamped ones to none.
-fn without_doubles(stretches: &mut [Stretch]) {
+fn without_doubles(bands: &mut [FittedBand]) {
     let mut seen: Vec<faer::c64> = Vec::new();
-    for stretch in stretches {
-        stretch.modes.retain(|mode| {
+    for fitted in bands {
+        fitted.modes.retain(|mode| {
             let alike = |pole: &faer::c64| (mode.pole - pole).norm() < mode.pole.re.abs().min(pole.re.abs());
             let keep = mode.pole.re < 0.0 && mode.pole.im > 0.0 && !seen.iter().any(alike);
             seen.extend(keep.then_some(mode.pole));
@@ -59,8 +59,8 @@ fn without_doubles(stretches: &mut [Stretch]) {
 }
 
 /// Whether a mode of band `k` moved.
-fn fit_again(stretches: &mut [Stretch], k: usize) -> Result<bool, ClassicalError> {
-    let (before, rest) = stretches.split_at_mut(k);
+fn fit_again(bands: &mut [FittedBand], k: usize) -> Result<bool, ClassicalError> {
+    let (before, rest) = bands.split_at_mut(k);
     let Some((own, after)) = rest.split_first_mut() else { return Ok(false) };
     if own.modes.is_empty() {
         return Ok(false);

@@ -14,7 +14,7 @@
 use super::data::ModalData;
 use super::error::ClassicalError;
 use super::extracted_mode::ExtractedMode;
-use super::neighbours::{self, Stretch};
+use super::neighbours::{self, FittedBand};
 use super::normal_sums::NormalSums;
 use super::refine::{Band, refine};
 use super::responses::FrequencyResponses;
@@ -111,16 +111,16 @@ pub fn extract(responses: &FrequencyResponses, control: &Control) -> Result<Extr
         let band = Band::new(responses, first, last);
         let (poles, stable) = stable_poles(&band)?;
         let modes = physical(&band, stable)?;
-        Ok::<_, ClassicalError>((poles, Stretch { band, modes }))
+        Ok::<_, ClassicalError>((poles, FittedBand { band, modes }))
     });
     control.report(0.5);
-    let (mut diagram, mut stretches) = (Vec::new(), Vec::new());
+    let (mut diagram, mut bands) = (Vec::new(), Vec::new());
     for one in found {
-        let (poles, stretch) = one?;
+        let (poles, fitted) = one?;
         diagram.extend(poles);
-        stretches.push(stretch);
+        bands.push(fitted);
     }
-    Ok(Extraction { modes: neighbours::settled(stretches, control)?, diagram })
+    Ok(Extraction { modes: neighbours::settled(bands, control)?, diagram })
 }
 
 /// Refined modes of a band without those that only mend the fit: poles that leave the band, and weak ones beside a strong

@@ -4,7 +4,7 @@ use crate::common::models::{oscillator, short_cantilever, source};
 use dashpot::effects::{Effect, Source};
 use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::transient::{
-    Pace, SampledForces, TransientModel, TransientParameter, TransientResponse, TransientSetup, has_exact_steps,
+    SampledForces, StepLength, TransientModel, TransientParameter, TransientResponse, TransientSetup, has_exact_steps,
 };
 use dashpot::structure::{Part, Structure};
 
@@ -83,7 +83,7 @@ impl Case {
 }
 
 fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
-    SampledForces { step, samples, forces: Vec::new(), substeps, every: 1, paces: Vec::new() }
+    SampledForces { step, samples, forces: Vec::new(), substeps, every: 1, step_lengths: Vec::new() }
 }
 
 /// Friction that holds a mode which a step does not resolve leaves derivatives that stay finite: the steps are cut to resolve it.
@@ -165,8 +165,8 @@ fn long_steps_of_a_settled_record_predict_what_short_ones_do() {
             directions: vec![],
             told_step: 1.0,
         };
-        let paces = [(2000, 2), (2800, 4)].map(|(from, samples)| Pace { from, samples }).to_vec();
-        let long = Case { forces: SampledForces { every: 8, paces, ..case.forces.clone() }, ..case.clone() };
+        let step_lengths = [(2000, 2), (2800, 4)].map(|(from, samples)| StepLength { from, samples }).to_vec();
+        let long = Case { forces: SampledForces { every: 8, step_lengths, ..case.forces.clone() }, ..case.clone() };
         let of_law = (0..values.len()).map(|parameter| TransientParameter::Source { source: 1, parameter });
         let parameters: Vec<TransientParameter> =
             of_law.chain([TransientParameter::Stiffness, TransientParameter::Initial(0)]).collect();
@@ -258,7 +258,7 @@ fn derivatives_are_those_of_the_record() {
                 forces: vec![drive.clone()],
                 substeps: 2,
                 every: 1,
-                paces: Vec::new(),
+                step_lengths: Vec::new(),
             },
             initial: vec![2e-4, 1e-5, 0.0, 1e-5, 0.0, 0.0],
             factors: [1.0; 2],
@@ -315,7 +315,7 @@ fn slowly_driven(samples: std::ops::Range<usize>, initial: Vec<f64>) -> Case {
             forces: vec![samples.map(force).collect()],
             substeps: 1,
             every: 1,
-            paces: Vec::new(),
+            step_lengths: Vec::new(),
         },
         initial,
         factors: [1.0; 2],

@@ -7,7 +7,7 @@
 use super::compare::struck;
 use super::data::RecordData;
 use super::weights::local;
-use crate::response::transient::Pace;
+use crate::response::transient::StepLength;
 use dashpot_numerics::RealTransform;
 use std::f64::consts::TAU;
 
@@ -55,13 +55,13 @@ impl RecordData {
     }
 
     /// How the model is stepped through the record: `longest` samples at a time where the motion has settled, less where it has not.
-    pub(super) fn paces(&self, longest: usize) -> Vec<Pace> {
+    pub(super) fn step_lengths(&self, longest: usize) -> Vec<StepLength> {
         let long = self
             .settled
             .iter()
             .zip(1..)
-            .map(|(from, k)| Pace { from: from.next_multiple_of(self.every), samples: 1 << k });
-        long.take_while(|pace| pace.samples <= longest.min(self.every)).collect()
+            .map(|(from, k)| StepLength { from: from.next_multiple_of(self.every), samples: 1 << k });
+        long.take_while(|length| length.samples <= longest.min(self.every)).collect()
     }
 }
 

@@ -340,7 +340,7 @@ mod tests {
             forces: Vec::new(),
             substeps: 4,
             every: 1,
-            paces: Vec::new(),
+            step_lengths: Vec::new(),
         };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;

@@ -33,7 +33,7 @@ impl RecordData {
 
     /// Whether there are longer steps than [`Self::substeps`] for the course of a fit.
     pub(super) fn has_coarse_steps(&self) -> bool {
-        self.steps(Steps::Coarse) < self.substeps || !self.paces(self.every).is_empty()
+        self.steps(Steps::Coarse) < self.substeps || !self.step_lengths(self.every).is_empty()
     }
 
     fn steps(&self, steps: Steps) -> usize {
@@ -50,7 +50,7 @@ impl RecordData {
 
     /// The measured forces, with all samples to be predicted that they have.
     pub(super) fn excitation(&self, linear: bool) -> SampledForces {
-        SampledForces { every: 1, paces: Vec::new(), ..self.excitation_in(self.len(), linear, Steps::Fine) }
+        SampledForces { every: 1, step_lengths: Vec::new(), ..self.excitation_in(self.len(), linear, Steps::Fine) }
     }
 
     /// Those up to sample `samples` of the channels, in steps of some length.
@@ -60,6 +60,6 @@ impl RecordData {
         let forces = self.forces.iter().map(|list| list[..samples].to_vec()).collect();
         let substeps = if linear { 1 } else { self.steps(steps) };
         let longest = if linear || steps == Steps::Coarse { self.every } else { self.every / 2 };
-        SampledForces { step, samples, forces, substeps, every, paces: self.paces(longest) }
+        SampledForces { step, samples, forces, substeps, every, step_lengths: self.step_lengths(longest) }
     }
 }

@@ -89,7 +89,7 @@ mod tests {
             forces: Vec::new(),
             substeps: 1,
             every: 1,
-            paces: Vec::new(),
+            step_lengths: Vec::new(),
         };
         model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels
     }

@@ -108,9 +108,9 @@ impl TransientModel {
         initial: &[f64],
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, TransientError> {
-        let stretches = forces.stretches(self.held_by_friction());
-        let first = stretches[0].begin(forces.step);
-        let lengths = stretches[0].lengths(forces.step);
+        let segments = forces.segments(self.held_by_friction());
+        let first = segments[0].begin(forces.step);
+        let lengths = segments[0].lengths(forces.step);
         let changes: Vec<LinearChange> = parameters.iter().filter_map(|p| self.change(*p)).collect();
         let (mut march, mut writer) = self.start(initial, &first, (parameters, &changes), lengths);
         let (count, every) = (self.sensors.len(), forces.every.max(1));
@@ -120,22 +120,22 @@ impl TransientModel {
         let mut modal = self.no_modal(parameters, predicted);
         let mut drives = vec![Polynomial::default(); first.len()];
         let mut inputs = vec![0.0; self.legs.len() + first.len()];
-        for (k, stretch) in stretches.iter().enumerate() {
+        for (k, segment) in segments.iter().enumerate() {
             if k > 0 {
-                let lengths = stretch.lengths(forces.step);
+                let lengths = segment.lengths(forces.step);
                 march.set_step(lengths, &changes, first.len());
                 writer.set_step(&self.system, &self.sensors, lengths);
             }
-            let begin = if k == 0 { 0 } else { stretch.from + stretch.samples };
-            for n in (begin..=stretch.to).step_by(stretch.samples) {
-                for part in 0..if n == 0 { 0 } else { stretch.substeps } {
-                    stretch.drives(n - stretch.samples, part, &mut drives);
+            let begin = if k == 0 { 0 } else { segment.from + segment.samples };
+            for n in (begin..=segment.to).step_by(segment.samples) {
+                for part in 0..if n == 0 { 0 } else { segment.substeps } {
+                    segment.drives(n - segment.samples, part, &mut drives);
                     march.advance(&drives)?;
                 }
                 if !n.is_multiple_of(every) {
                     continue;
                 }
-                stretch.inputs(n, &mut inputs[self.legs.len()..]);
+                segment.inputs(n, &mut inputs[self.legs.len()..]);
                 writer.moved = n > 0;
                 self.write(&march, &mut writer, &mut inputs, &mut channels);
                 if !derivatives.is_empty() {

@@ -103,12 +103,12 @@ pub struct SampledForces {
     pub every: usize,
     /// Longer steps from some samples on, in their order; none where all are as short as `substeps` says. What is predicted lies
     /// between them.
-    pub paces: Vec<Pace>,
+    pub step_lengths: Vec<StepLength>,
 }
 
 /// Steps of several samples, over which forces go on straight between their means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pace {
+pub struct StepLength {
     /// Number of the sample from which on a step is so long.
     pub from: usize,
     /// Samples that a step covers.

@@ -1,4 +1,4 @@
-//! Stretches of a record that are stepped through at one pace, with the measured forces over their steps.
+//! Segments of a record that are stepped through at one step length, with the measured forces over their steps.
 
 use super::hold::{Hold, Polynomial, shifted, value};
 use super::setup::SampledForces;
@@ -10,8 +10,8 @@ const HELD_PHASE: f64 = 1.2;
 /// Parts of a step at most.
 const MOST_SUBSTEPS: usize = 8;
 
-/// Samples that are stepped through at one pace.
-pub(super) struct Stretch {
+/// Samples that are stepped through at one step length.
+pub(super) struct Segment {
     /// Numbers of its first and last sample.
     pub from: usize,
     pub to: usize,
@@ -23,19 +23,19 @@ pub(super) struct Stretch {
 }
 
 impl SampledForces {
-    /// The stretches of a record: from sample to sample, then in longer steps, over which forces go on straight between their means. Where
+    /// The segments of a record: from sample to sample, then in longer steps, over which forces go on straight between their means. Where
     /// friction holds modes up to `held` rad/s all steps resolve these.
-    pub(super) fn stretches(&self, held: Option<f64>) -> Vec<Stretch> {
+    pub(super) fn segments(&self, held: Option<f64>) -> Vec<Segment> {
         let last = self.samples.max(1) - 1;
-        let longer: Vec<_> = self.paces.iter().filter(|pace| held.is_none() && pace.from < last).collect();
+        let longer: Vec<_> = self.step_lengths.iter().filter(|length| held.is_none() && length.from < last).collect();
         let least = held.map_or(1, |omega| ((omega * self.step / HELD_PHASE).ceil() as usize).clamp(1, MOST_SUBSTEPS));
-        let end = |k: usize| longer.get(k).map_or(last, |pace| pace.from);
+        let end = |k: usize| longer.get(k).map_or(last, |length| length.from);
         let held = self.forces.iter().map(|force| Hold::BandLimited.polynomials(&force[..self.samples])).collect();
-        let fine = Stretch { from: 0, to: end(0), samples: 1, substeps: self.substeps.max(least), held };
-        let long = longer.iter().enumerate().map(|(k, pace)| {
-            let (from, to, samples) = (pace.from, end(k + 1), pace.samples);
+        let fine = Segment { from: 0, to: end(0), samples: 1, substeps: self.substeps.max(least), held };
+        let long = longer.iter().enumerate().map(|(k, length)| {
+            let (from, to, samples) = (length.from, end(k + 1), length.samples);
             let straight = |force: &Vec<f64>| Hold::FirstOrder.polynomials(&means(force, from, to, samples));
-            Stretch { from, to, samples, substeps: 1, held: self.forces.iter().map(straight).collect() }
+            Segment { from, to, samples, substeps: 1, held: self.forces.iter().map(straight).collect() }
         });
         std::iter::once(fine).chain(long).filter(|s| s.from < s.to || s.from == 0).collect()
     }
@@ -50,7 +50,7 @@ fn means(force: &[f64], from: usize, to: usize, samples: usize) -> Vec<f64> {
     (from..=to).step_by(samples).map(mean).collect()
 }
 
-impl Stretch {
+impl Segment {
     /// Length of a part of a step and time over which forces are one polynomial, s, where samples are `step` s apart.
     pub(super) fn lengths(&self, step: f64) -> [f64; 2] {
         let whole = self.samples as f64 * step;
