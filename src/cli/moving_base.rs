@@ -24,8 +24,7 @@ pub(super) struct MovingBase {
 
 /// The channel of the base along an axis (0 to 2).
 pub(super) fn channel(plan: &Plan, axis: usize) -> Channel {
-    let dofs = plan.structure.dofs();
-    let dof = dofs.iter().position(|dof| dof.direction.axis() == Some(axis)).unwrap_or(0);
+    let dof = plan.structure.carried_by_base(axis).first().copied().unwrap_or(0);
     Channel { quantity: Quantity::Base, dof, label: AXES[axis].to_owned() }
 }
 

@@ -4,9 +4,16 @@
 //! With consistent masses the columns of the held degrees of freedom load the free ones too; a beam knows its elements and
 //! adds them. Imported matrices are taken as they are.
 
-use super::system::Structure;
+use super::system::{Structure, StructureKind};
 
 impl Structure {
+    /// Degrees of freedom that a base moving along axis 0, 1 or 2 (x, y, z) carries with it: the translations along it. The masses of a
+    /// chain move in one direction that nobody states: whatever a base is said to move along, it carries them.
+    pub fn carried_by_base(&self, axis: usize) -> Vec<usize> {
+        let along = |i: &usize| self.dofs[*i].direction.axis() == Some(axis) || self.kind == StructureKind::Chain;
+        (0..self.len()).filter(along).collect()
+    }
+
     /// `M r` for a base that moves along axis 0, 1 or 2 (x, y, z): one value a degree of freedom, kg (kg m at rotations);
     /// `None` without a mass matrix.
     pub fn base_load(&self, axis: usize) -> Option<Vec<f64>> {
@@ -14,7 +21,7 @@ impl Structure {
             return reduction.base_loads.get(axis).cloned();
         }
         let mass = &self.matrices.as_ref()?.mass;
-        let along: Vec<usize> = (0..self.len()).filter(|&i| self.dofs[i].direction.axis() == Some(axis)).collect();
+        let along = self.carried_by_base(axis);
         let mut load: Vec<f64> = (0..self.len()).map(|i| along.iter().map(|&j| mass[(i, j)]).sum()).collect();
         // Elements are of beams, whose local translations are the first and the third of four DOFs, all along one axis.
         for element in self.elements.iter().filter(|_| !along.is_empty()) {
@@ -33,8 +40,18 @@ impl Structure {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
-    use crate::common::models::cantilever_parameters;
+    use crate::common::models::{cantilever_parameters, chain};
     use crate::structure::LumpedMass;
+
+    /// A wall that shakes "along z" shakes the masses of a chain as one "along x" does.
+    #[test]
+    fn a_base_carries_a_chain_whatever_its_direction_is_called() {
+        let chain = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        assert!((0..3).all(|axis| chain.base_load(axis).unwrap() == [2.0, 1.0]));
+        let beam = cantilever_parameters(4).build(&[]).unwrap();
+        assert_eq!(beam.carried_by_base(2), [0, 2, 4, 6]);
+        assert!(beam.carried_by_base(0).is_empty());
+    }
 
     /// The first modal participation mass of a cantilever is 61.3 % of its mass (Blevins, table 8-1: (2 * 0.7340955 / 1.8751)^2).
     #[test]

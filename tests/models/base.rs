@@ -113,10 +113,10 @@ fn dashpots_are_found_on_a_shaker_table() {
 fn what_cannot_be_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let write_model = |text: &str| fs::write(folder.path().join("t.toml"), text).unwrap();
-    write_model(&one_mass("absolute", &recipe(&[3.0], "z")));
+    write_model(&format!("{TABLE}{}[simulate]\nchannels = [\"acc@19 [m/s^2]\"]\n", recipe(&[3.0], "x")));
     assert!(
         refused(&["simulate", "t.toml", "--out", "."], folder.path())
-            .ends_with("no DOF of the structure moves along z; correct `base` of the run")
+            .ends_with("no DOF of the structure moves along x; correct `base` of the run")
     );
     write_model(&one_mass("absolut", &recipe(&[3.0], "x")));
     assert!(

@@ -14,8 +14,7 @@ use std::sync::Arc;
 pub(crate) fn base(structure: &Structure, axis: usize) -> Option<Base> {
     let loads = structure.base_load(axis)?.into_iter().enumerate().filter(|(_, load)| *load != 0.0);
     let loads = loads.map(|(dof, load)| (dof, structure.label(dof).to_owned(), load)).collect();
-    let is_along = |dof: &usize| structure.dofs()[*dof].direction.axis() == Some(axis);
-    Some(Base { label: AXES[axis].to_owned(), loads, along: (0..structure.len()).filter(is_along).collect() })
+    Some(Base { label: AXES[axis].to_owned(), loads, along: structure.carried_by_base(axis) })
 }
 
 impl Plan {

@@ -71,8 +71,10 @@ pub enum RecordProblem {
     OpenQuote { name: String },
     #[error("the structure has no DOF \"{label}\"; it has {known}")]
     UnknownDof { label: String, known: String },
-    #[error("no DOF of the structure moves along \"{label}\"; write the direction of the base, such as base@z [m/s^2]")]
-    NoBaseAxis { label: String },
+    #[error(
+        "no DOF of the structure moves along \"{label}\"; name the base by a direction in which DOFs move ({known}), such as base@z [m/s^2]"
+    )]
+    NoBaseAxis { label: String, known: String },
     #[error("DOF {label} is a {kind} and cannot be measured in {unit}; use one of {units}")]
     UnitOfOtherKind { label: String, kind: &'static str, unit: &'static str, units: String },
     #[error("there are {found} cells and the header has {expected}; give each row one cell a column{hint}")]

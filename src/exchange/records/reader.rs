@@ -155,7 +155,7 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'s
     if quantity == Quantity::Base {
         return match base_channel(&label, structure) {
             Some(channel) => Ok((channel, unit)),
-            None => Err(RecordProblem::NoBaseAxis { label: quote(label.as_bytes()) }),
+            None => Err(no_base_axis(&label, structure)),
         };
     }
     let Some(dof) = structure.dof(&label) else {
@@ -179,8 +179,15 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<(Channel, &'s
 /// direction, and for a structure that does not move in it.
 pub(crate) fn base_channel(label: &str, structure: &Structure) -> Option<Channel> {
     let axis = AXES.iter().position(|&axis| axis == label)?;
-    let dof = structure.dofs().iter().position(|dof| dof.direction.axis() == Some(axis))?;
+    let dof = structure.carried_by_base(axis).first().copied()?;
     Some(Channel { quantity: Quantity::Base, dof, label: label.to_owned() })
+}
+
+/// That no DOF follows a base along `label`, with the directions that DOFs have.
+pub(crate) fn no_base_axis(label: &str, structure: &Structure) -> RecordProblem {
+    let moves = |axis: &usize| !structure.carried_by_base(*axis).is_empty();
+    let known: Vec<&str> = (0..AXES.len()).filter(moves).map(|axis| AXES[axis]).collect();
+    RecordProblem::NoBaseAxis { label: quote(label.as_bytes()), known: known.join(" or ") }
 }
 
 pub(crate) fn known_labels(structure: &Structure) -> String {
