@@ -163,9 +163,9 @@ pub struct TestErrors {
 }
 
 impl Diagnosis {
-    /// What is added with `source`: beside corrections the whole set that these were fitted with; else it alone.
+    /// What is added with `source`: the whole set that its error was promised with, else it alone.
     pub fn added_with(&self, source: &Source) -> Vec<Source> {
-        match self.steps.last().filter(|_| self.is_corrected_beside(source)) {
+        match self.steps.last().filter(|_| self.is_promised_with_its_set(source)) {
             Some(step) => step.added.iter().map(|added| added.source.clone()).collect(),
             None => vec![source.clone()],
         }
@@ -182,13 +182,55 @@ impl Diagnosis {
         self.channel_faults = faults;
     }
 
-    /// Whether `source` is of the set that the corrections were fitted with.
-    pub fn is_corrected_beside(&self, source: &Source) -> bool {
-        let set = self.steps.last().map_or(&[][..], |step| &step.added);
-        !self.corrections.is_empty() && set.iter().any(|added| added.source.is_same(source))
+    /// Whether `source` is of the set of the last step, and the error that is told of it is that of the set and of the corrections that
+    /// were fitted beside it: where there are any, or where it is told of each of them.
+    pub fn is_promised_with_its_set(&self, source: &Source) -> bool {
+        let Some(step) = self.steps.last() else { return false };
+        let is_member = step.added.iter().any(|added| added.source.is_same(source));
+        let told = self.suggestions.iter().find(|s| s.added.source.is_same(source));
+        is_member && (!self.corrections.is_empty() || told.is_some_and(|told| told.error_after == step.error))
     }
 }
 
 /// Is told of suggestions as soon as there are any, before they are fitted to the end: their errors and probabilities are
 /// provisional. It may be told several times; what it was told last replaces what it was told before.
 pub type Early<'a> = dyn Fn(&[Suggestion]) + Sync + 'a;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Effect, Place};
+
+    /// What is told with the error of a set is added with the set, corrected or not; what is told with its own error alone is added alone.
+    #[test]
+    fn a_member_that_is_told_with_its_set_is_added_with_it() {
+        let source = |effect: Effect, size: f64| Source::known(effect, Place::Dofs(vec![0]), &[size]);
+        let sources = [source(Effect::Coulomb, 2.0), source(Effect::CubicStiffness, 5e6), source(Effect::Viscous, 1.0)];
+        let added = |k: usize| Added { source: sources[k].clone(), deviations: vec![0.1] };
+        let suggestion = |k: usize, error_after: f64| Suggestion {
+            added: added(k),
+            error_after,
+            held_out_error_after: error_after,
+            probability: 0.5,
+            evidence: Vec::new(),
+            indistinguishable_from: Vec::new(),
+        };
+        let diagnosis = |own: f64| Diagnosis {
+            error_before: 1.0,
+            noise_floor: 0.01,
+            verdict: Verdict::Missing,
+            suggestions: vec![suggestion(0, own), suggestion(1, own), suggestion(2, 0.4)],
+            steps: vec![Step { added: vec![added(0), added(1)], error: 0.03, misfit: 1.0 }],
+            records: None,
+            test_errors: None,
+            next_test: Vec::new(),
+            corrections: Vec::new(),
+            channel_faults: Vec::new(),
+            complete: true,
+            runs: Vec::new(),
+        };
+        assert_eq!(diagnosis(0.03).added_with(&sources[0]), sources[..2]);
+        assert_eq!(diagnosis(0.2).added_with(&sources[0]), sources[..1]);
+        assert_eq!(diagnosis(0.03).added_with(&sources[2]), sources[2..]);
+    }
+}

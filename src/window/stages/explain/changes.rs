@@ -74,7 +74,7 @@ fn with_corrections(scene: &Scene<'_>, source: &Source) -> Result<Vec<Command>, 
         return Ok(vec![suggestions::add(source, document)?]);
     };
     let mut commands = Vec::new();
-    if diagnosis.is_corrected_beside(source) {
+    if diagnosis.is_promised_with_its_set(source) {
         commands.extend(cards::adopted(scene, diagnosis).commands);
     }
     for one in diagnosis.added_with(source) {
