@@ -4,7 +4,7 @@ use super::compare::first_states;
 use super::data::{RecordData, RecordError, Records};
 use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
-use super::laws::LAWS;
+use super::laws::laws_seen_in;
 use super::problem::{FitProblem, Free};
 use super::rivals::{GivenUp, is_same_set, unlike};
 use super::telling::{last_deviations, plainest};
@@ -13,7 +13,7 @@ use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Family, Place, Source};
+use crate::effects::{Effect, Family, Place, Source};
 use crate::structure::{Part, Structure};
 use std::sync::OnceLock;
 
@@ -33,8 +33,6 @@ pub(super) const FEW_MODES: usize = 2;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
-/// Starts by regression beside those that are scored, on the shortest parts and on longer ones.
-const FURTHER: [usize; 2] = [24, 8];
 /// Starts of which a fit is begun.
 const BEGUN: usize = 28;
 /// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
@@ -66,6 +64,8 @@ pub(super) struct Search<'a> {
     pub control: &'a Control,
     /// Sets with a neighbour of the best law that left hopelessly much on shorter parts, where no phase is lost.
     pub given_up: GivenUp,
+    /// Laws that are looked for.
+    pub laws: Vec<Effect>,
     /// The motion of the modes as the sensors show it, once it was asked for.
     pub motions: OnceLock<Vec<(usize, Motion)>>,
 }
@@ -95,7 +95,8 @@ impl<'a> Search<'a> {
         control: &'a Control,
     ) -> Self {
         let (levels, given_up, motions) = (weighted.levels(), GivenUp::default(), OnceLock::new());
-        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up, motions }
+        let laws = laws_seen_in(plain);
+        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up, laws, motions }
     }
 
     /// The structure as it is stated with its supports and other parts corrected.
@@ -190,7 +191,7 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() && level == 0 { bare } else { best };
-        let (scored, gain) = self.scored(level, best, &self.all_places(), &LAWS);
+        let (scored, gain) = self.scored(level, best, &self.all_places(), &self.laws);
         let several = self.records.kept > FEW_MODES && !best.effects.is_empty();
         if several && gain < PROMISED * best.chi_square {
             return Ok(Vec::new());
@@ -201,7 +202,6 @@ impl Search<'_> {
             return Ok(Vec::new());
         }
         let mut starts = self.begun(level, best, base);
-        starts.truncate(FURTHER[usize::from(level > 0)]);
         starts.splice(0..0, scored);
         starts.retain(|s| s.effects.split_last().is_none_or(|(new, others)| !self.repeats(others, new)));
         let starts = self.nearest(level, starts, scale(best));

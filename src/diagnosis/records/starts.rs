@@ -2,7 +2,6 @@
 
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
-use super::laws::LAWS;
 use super::localisation::{LocatedForce, locate};
 use super::regression::{Regressed, Regression};
 use super::rivals::is_same_set;
@@ -19,6 +18,8 @@ const QUOTAS: [usize; 3] = [usize::MAX, 3, 2];
 const NEXT: usize = 4;
 /// Places of a mass and of a spring that are fitted whatever else the equation of motion demands.
 const CONSTANTS: usize = 2;
+/// Starts by regression beside those that are scored, on the shortest parts and on longer ones.
+const REGRESSED: [usize; 2] = [24, 8];
 /// Share of what the equation of motion of several modes leaves that one effect more must take away, or none is looked for.
 const NEEDED: f64 = 0.8;
 /// Misfit of the equation of motion over the least one beyond which a law is not fitted to the response, at the best place and at
@@ -33,7 +34,10 @@ impl Search<'_> {
     /// Fits that are to be begun, one law more each.
     pub(super) fn begun(&self, level: usize, best: &FittedRecords, base: &FittedRecords) -> Vec<FittedRecords> {
         let regression = Regression::new(self.records, base, self.control);
-        let sources = self.beginnings(level, best, base, regression.as_ref());
+        let mut sources = self.beginnings(level, best, base, regression.as_ref());
+        if regression.is_some() {
+            sources.truncate(REGRESSED[usize::from(level > 0)]);
+        }
         let start_with_law = |k: usize| {
             if let Some(regression) = &regression {
                 return self.in_best_states(level, regression.tuned(base, Some(&sources[k])));
@@ -61,11 +65,11 @@ impl Search<'_> {
         let Some(regression) = regression else {
             let starts_at_place = |place: &Place| {
                 let range = self.range(level, base, place);
-                LAWS.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
+                self.laws.iter().flat_map(move |&effect| self.starts(effect, place, &range)).collect::<Vec<Source>>()
             };
             return located.iter().flat_map(starts_at_place).filter(open).collect();
         };
-        let mut ranked = regression.ranked(&all, &LAWS, self.control);
+        let mut ranked = regression.ranked(&all, &self.laws, self.control);
         ranked.retain(|r| open(&r.source));
         let least = ranked.first().map_or(0.0, |r| r.misfit);
         if !best.effects.is_empty() && self.records.kept > 1 && least > NEEDED * regression.misfit() {
@@ -115,7 +119,7 @@ impl Search<'_> {
         let taken = |s: &Source| best.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let allowed = |s: &Source| s.parameters.iter().zip(s.effect.parameters()).all(|(v, p)| p.allows(*v));
         let simpler: Vec<Source> =
-            law.limits().filter(|s| LAWS.contains(&s.effect) && !taken(s) && allowed(s)).collect();
+            law.limits().filter(|s| self.laws.contains(&s.effect) && !taken(s) && allowed(s)).collect();
         if simpler.is_empty() {
             return Vec::new();
         }
@@ -169,21 +173,34 @@ impl Search<'_> {
         places
     }
 
+    /// Circular frequency (rad/s) at which a mode moves: its own, that of the motion where it moves as a rigid body.
+    fn rate(&self, mode: usize) -> f64 {
+        let own = self.records.modes.omega[mode];
+        if own > 0.0 { own } else { TAU * self.records.list[0].dominant_hz }
+    }
+
+    /// Compliance of the structure along a place, m/N: static, but where it moves as a rigid body.
+    fn compliance(&self, place: &Place) -> f64 {
+        let (modes, legs) = (&self.records.modes, place.legs());
+        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
+        (0..self.records.kept).map(|r| (shape(r) / self.rate(r)).powi(2)).sum()
+    }
+
     /// Range of the motion at a place in the parts of the records.
     fn range(&self, level: usize, base: &FittedRecords, place: &Place) -> Range {
         let (modes, kept) = (&self.records.modes, self.records.kept);
         let legs = place.legs();
         let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
+        let flexible = self.compliance(place);
         let sizes = |initial: &Vec<f64>| -> [f64; 2] {
             let amplitude_of_mode = |r: usize| shape(r).abs() * initial[r].hypot(initial[kept + r]);
             let d: f64 = (0..kept).map(amplitude_of_mode).sum();
-            [d, (0..kept).map(|r| amplitude_of_mode(r) * modes.omega[r].max(1e-3)).sum()]
+            [d, (0..kept).map(|r| amplitude_of_mode(r) * self.rate(r)).sum()]
         };
         let mut all: Vec<[f64; 2]> = base.initial.iter().map(sizes).collect();
         for (record, size) in self.levels[level].list.iter().zip(&mut all) {
             // Driven records begin at rest: the static motion under the largest force stands for theirs, ten times raised.
             let force = record.forces.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
-            let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
             let driven = 3.0 * force * flexible;
             *size = [size[0].max(driven), size[1].max(driven * TAU * record.dominant_hz)];
         }
@@ -195,10 +212,7 @@ impl Search<'_> {
 
     /// Starts of a law at a place: shapes, sized to a share of the spring force there.
     fn starts(&self, effect: Effect, place: &Place, range: &Range) -> Vec<Source> {
-        let (modes, kept) = (&self.records.modes, self.records.kept);
-        let legs = place.legs();
-        let shape = |r: usize| legs.first().map_or(0.0, |leg| leg.relative(|i| modes.shapes[(i, r)]));
-        let flexible: f64 = (0..kept).map(|r| (shape(r) / modes.omega[r].max(1e-3)).powi(2)).sum();
+        let flexible = self.compliance(place);
         let (Some(law), true) = (effect.law(), flexible > 0.0) else { return Vec::new() };
         let spring = range.displacement / flexible;
         let motion = Motion::cosine(range.velocity / range.displacement, range.displacement, 64);

@@ -5,7 +5,6 @@ use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
-use super::laws::LAWS;
 use super::rivals::is_same_set;
 use super::score::{ScoreTest, Scored};
 use super::search::Search;
@@ -27,7 +26,7 @@ impl Search<'_> {
     pub(super) fn begun_wider(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let wider: Vec<Effect> =
-            law.effect.wider().into_iter().filter(|e| LAWS.contains(e) && *e != law.effect).collect();
+            law.effect.wider().into_iter().filter(|e| self.laws.contains(e) && *e != law.effect).collect();
         let explained = misfit(best) < AGREES && level + 1 < self.levels.len();
         if explained || wider.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
