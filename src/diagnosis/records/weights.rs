@@ -46,7 +46,7 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
     if above < LEAST_BAND || n < 16 {
         return vec![noise; n];
     }
-    let high = in_band(signal, step, [corner_hz, f64::INFINITY]);
+    let high = above_corner(signal, step, corner_hz);
     let half = ((NEIGHBOURS / (corner_hz * step)).ceil() as usize).clamp(2, n / 4);
     let mean = local(&high, half);
     // The mean of a few squares of noise scatters: only what is well above it is no noise.
@@ -57,6 +57,28 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
         (noise * noise + rest).sqrt()
     };
     (0..n).map(deviation_at_sample).collect()
+}
+
+/// The part of a signal above the corner. Beside the line through its ends it is continued by its negative, as a string beyond its
+/// supports, so that neither values nor slopes jump: the motion below the corner, a hundred times as large, leaves next to nothing there.
+fn above_corner(signal: &[f64], step: f64, corner_hz: f64) -> Vec<f64> {
+    let last = signal.len() - 1;
+    let slope = (signal[last] - signal[0]) / last as f64;
+    let beside_line = |k: usize| signal[k] - signal[0] - slope * k as f64;
+    let mut work: Vec<f64> = (0..last).map(beside_line).chain((1..=last).rev().map(|k| -beside_line(k))).collect();
+    let length = work.len();
+    let transform = RealTransform::new(length);
+    let mut lines = transform.forward(&mut work);
+    for (k, line) in lines.iter_mut().enumerate() {
+        let is_above = k as f64 / (length as f64 * step) > corner_hz;
+        *line *= if is_above { 1.0 / length as f64 } else { 0.0 };
+    }
+    for end in [0, last] {
+        lines[end].im = 0.0;
+    }
+    transform.backward(&mut lines, &mut work);
+    work.truncate(last + 1);
+    work
 }
 
 /// The part of a signal between two frequencies; it is continued as in a mirror, so that its ends do not jump.
@@ -97,6 +119,21 @@ mod tests {
         let sigma = deviations(&signal, noise, step, 60.0);
         assert!((sigma[500] / (0.1 / 2.0_f64.sqrt()) - 1.0).abs() < 0.1, "{}", sigma[500]);
         assert!(sigma[200] < 0.01 && sigma[800] < 0.01, "{} {}", sigma[200], sigma[800]);
+    }
+
+    /// A decay that neither begins nor ends at rest has nothing above twice its frequency: its ends are no burst.
+    #[test]
+    fn a_slow_motion_leaves_nothing_above_the_corner() {
+        let (step, noise) = (1e-3, 1e-6);
+        let decay = |n: usize| {
+            let t = n as f64 * step;
+            (-0.2 * t).exp() * (TAU * 5.0 * t + 0.6).cos()
+        };
+        let signal: Vec<f64> = (0..4000).map(decay).collect();
+        let sigma = deviations(&signal, noise, step, 10.0);
+        let mean = (sigma.iter().map(|s| s * s).sum::<f64>() / sigma.len() as f64).sqrt();
+        assert!(mean < 0.01, "{mean}");
+        assert!(sigma[2000] < 2e-3, "{}", sigma[2000]);
     }
 
     /// White noise stays what it is.
