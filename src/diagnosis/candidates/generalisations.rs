@@ -9,12 +9,13 @@ use crate::diagnosis::selection::search::joined;
 use crate::effects::Effect;
 use std::sync::Arc;
 
-/// Shapes of each law that are tried.
-const SHAPES: usize = 2;
+/// Shapes of each law that are tried beside the one that does the same force.
+const SHAPES: usize = 1;
 
 impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
-    /// shapes against the free force that the rest of `best` leaves at the place; of these laws, those that are `wanted`.
+    /// shapes against the free force that the rest of `best` leaves at the place, and from where they do the same force; of these laws,
+    /// those that are `wanted`.
     pub(crate) fn wider(
         &self,
         best: &FittedModel,
@@ -37,7 +38,12 @@ impl ReferenceModel<'_> {
             let (forces, fields) = self.free(&view, &[at]);
             let data = self.at_place(&view, at, &forces[0], &fields);
             let fields = Arc::new(fields);
-            let laws = laws.into_iter().flat_map(|effect| data.starts(effect, SHAPES));
+            let with_force = data.with_force_of(source);
+            let law_starts = |effect| {
+                let alike = with_force.as_ref().and_then(|data| data.fit_within(effect, f64::INFINITY, data));
+                data.starts(effect, SHAPES).into_iter().chain(alike).collect::<Vec<_>>()
+            };
+            let laws = laws.into_iter().flat_map(law_starts);
             let unfitted = |effect| UnfittedSet {
                 effects: joined(&others.effects, &[effect]),
                 score: 0.0,

@@ -106,11 +106,7 @@ impl PlaceData {
         };
         let motions: Vec<Motion> = data.runs.iter().zip(fields).map(motion).collect();
         let range = Range::of(&motions);
-        let history = |list: &Vec<FreeForce>| {
-            let harmonics: Vec<c64> = (1..=list.len()).map(|h| shrunk(list, h)).collect();
-            sampling.motion(1.0, 0.0, &harmonics).displacement
-        };
-        let histories = forces.iter().map(history).collect();
+        let histories = forces.iter().map(|list| history(&sampling, list)).collect();
         let freedom = freedom.map(|freedom| {
             let eliminator = Eliminator::new(forces, &freedom);
             (freedom, eliminator)
@@ -179,7 +175,7 @@ impl PlaceData {
 
     /// Fits `effect` from the best shape of a grid on the runs of `grid`, the same place; `None` if it cannot act here, if its best scale
     /// has an unphysical sign, or if the best shape leaves more than `bound` there.
-    fn fit_within(&self, effect: Effect, bound: f64, grid: &Self) -> Option<LawFit> {
+    pub(super) fn fit_within(&self, effect: Effect, bound: f64, grid: &Self) -> Option<LawFit> {
         match (effect.kind(), &self.spot) {
             (Kind::Relative(law), Spot::Leg(_)) if is_scale(effect, law) => self.starts_of(effect, law).next(),
             (Kind::Relative(law), Spot::Leg(_)) => self.fit_law(effect, law, grid.grid(effect, law), bound),
@@ -308,6 +304,12 @@ impl PlaceData {
         let rows = self.rows(1.0, |r, _| of_law[r].clone());
         dot(&rows, &rows)
     }
+}
+
+/// Samples of a force with these harmonics.
+pub(super) fn history(sampling: &Sampling, list: &[FreeForce]) -> Vec<f64> {
+    let harmonics: Vec<c64> = (1..=list.len()).map(|h| shrunk(list, h)).collect();
+    sampling.motion(1.0, 0.0, &harmonics).displacement
 }
 
 /// Whether the force of a law is its only parameter times that of the motion, which takes no mean by it.
