@@ -13,7 +13,7 @@ use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::updated::REFITTED;
 use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
-use crate::effects::Kind;
+use crate::effects::{Kind, Source};
 
 /// The same beside corrections, whose freedom has its cost already: having been chosen among some thousand.
 const CHOSEN: f64 = 16.0;
@@ -30,6 +30,9 @@ const FURTHER: f64 = 100.0;
 const RIVALLED: f64 = 4.0;
 /// Times that a model is settled beside the effects that are left when another is taken away.
 const UPDATES: usize = 6;
+/// How many times the error of the effects before it, as `compare` shows it, a further effect may leave: errors that the runs have of their
+/// own scatter by that.
+const RAISED: f64 = 1.1;
 /// Share of the error of the stated model that effects may leave where corrections that raise it are no rival of theirs: further
 /// than chance or one run on another branch would bring them.
 const HALVED: f64 = 0.5;
@@ -71,6 +74,14 @@ pub(super) fn beside_updating(
         if from.is_some() && here.control.is_late() {
             break;
         }
+        if let Some(from) = &from
+            && let Some(better) = in_another_valley(&fits, from, least)?
+        {
+            found.by_size.pop();
+            (likely, least) = taken(&mut found, better);
+            here = likely.with_scales(likely.linearisation.updating.scales);
+            continue;
+        }
         let Some(mut weighed) = weighed(fits)? else { break };
         if from.is_none()
             && let Some(two) = here.two_laws_for(&weighed)?
@@ -83,7 +94,7 @@ pub(super) fn beside_updating(
             ((likely, least), told_alone) = rival((likely, least), &bare, &weighed, stated)?;
         }
         // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
-        let raises = best.error > stated;
+        let raises = best.error > from.as_ref().map_or(stated, |from| RAISED * from.error);
         let known = best.parameters < weighed.reference.count();
         if raises || !known || (least - weighed.least) / scale < evidence_needed(best, by_modes) {
             break;
@@ -91,11 +102,7 @@ pub(super) fn beside_updating(
         if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
             break;
         }
-        found.agrees = agrees(&weighed.reference, best.chi_square, best.parameters);
-        least = weighed.least;
-        let noise = weighed.reference.noise.clone();
-        found.by_size.push(FittedSets { scale, noise, fits: weighed.fits, probabilities: weighed.probabilities });
-        likely = weighed.reference;
+        (likely, least) = taken(&mut found, weighed);
         here =
             ReferenceModel { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
         // Corrections beyond what models are wrong by may stand in for one effect more.
@@ -109,6 +116,36 @@ pub(super) fn beside_updating(
     pruned(&likely, &mut found)?;
     let likely = without_open(likely, &mut found)?;
     Ok(Ok(Outcome { reference: likely, found }))
+}
+
+/// Makes a weighed set what was found last; its model and its evidence.
+fn taken<'a>(found: &mut Found, weighed: Weighed<'a>) -> (ReferenceModel<'a>, f64) {
+    let Weighed { reference, fits, probabilities, least } = weighed;
+    found.agrees = agrees(&reference, fits[0].chi_square, fits[0].parameters);
+    let scale = scale_of(&fits, reference.count());
+    found.by_size.push(FittedSets { scale, noise: reference.noise.clone(), fits, probabilities });
+    (reference, least)
+}
+
+/// The effects of `from`, whose evidence is `least`, in the model of the best of the candidates for one effect more, where they have
+/// their evidence there without it: what it brought was another valley of the same effects, such as other branches of a resonance.
+fn in_another_valley<'a>(
+    candidates: &[(ReferenceModel<'a>, FittedModel)],
+    from: &FittedModel,
+    least: f64,
+) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    let evidence = |(reference, fit): &(ReferenceModel, FittedModel)| cost(reference, Some(fit));
+    let best = candidates.iter().min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
+    let Some((reference, fit)) = best else { return Ok(None) };
+    let is_known = |effect: &&Source| from.effects.iter().any(|known| known.is_same(effect));
+    let same: Vec<Source> = fit.effects.iter().filter(is_known).cloned().collect();
+    let own = reference.with_scales(reference.linearisation.updating.scales);
+    let begun = own.estimator().fit(&same, REFITTED, &SEARCH, &fit.starts)?;
+    if same.len() < from.effects.len() || cost(&own, Some(&begun)) > least - EVIDENCE {
+        return Ok(None);
+    }
+    let better = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])?;
+    Ok(better.filter(|better| better.fits[0].effects.len() == same.len() && better.least < least - EVIDENCE))
 }
 
 /// What a search beside corrections begins with.
@@ -274,15 +311,7 @@ fn without_open<'a>(reference: ReferenceModel<'a>, found: &mut Found) -> Result<
         }
         found.by_size.pop();
         found.by_size.retain(|sets| sets.fits[0].effects.len() < fewer.len());
-        let first = &weighed.fits[0];
-        found.agrees = agrees(&weighed.reference, first.chi_square, first.parameters);
-        found.by_size.push(FittedSets {
-            scale: scale_of(&weighed.fits, weighed.reference.count()),
-            noise: weighed.reference.noise.clone(),
-            fits: weighed.fits,
-            probabilities: weighed.probabilities,
-        });
-        reference = weighed.reference;
+        (reference, _) = taken(found, weighed);
     }
     Ok(reference)
 }

@@ -200,8 +200,8 @@ impl<'a> ReferenceModel<'a> {
     }
 }
 
-/// The candidate of the step, `whole` or a share of it from `here` to `target`, that leaves least with the model where the step ends:
-/// the whole is right where the response is as linear in the model as it is at the measured motion.
+/// The candidate of the step, `whole` or a share of it from `here` to `target`, or of the model as it is stated, that leaves least with
+/// the model where it begins: the whole is right where the response is as linear in the model as it is at the measured motion.
 fn shortened<'a>(
     whole: (ReferenceModel<'a>, FittedModel),
     here: &[f64],
@@ -214,8 +214,9 @@ fn shortened<'a>(
     };
     let mut least = left(&whole)?;
     let mut best = whole;
-    for share in SHARES {
-        let part: Vec<f64> = here.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect();
+    let parts = SHARES.map(|share| here.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect());
+    for part in parts.into_iter().chain([vec![0.0; here.len()]]) {
+        let part: Vec<f64> = part;
         let Some(tried) = if_possible(begun(&part))? else { continue };
         let then = left(&tried)?;
         if then < least {

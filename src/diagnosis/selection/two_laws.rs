@@ -6,7 +6,7 @@ use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::two_laws::TwoLaws;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::DiagnosisError;
-use crate::diagnosis::selection::found::{EVIDENCE, agrees};
+use crate::diagnosis::selection::found::{DOUBTFUL, EVIDENCE};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::effects::{Kind, Place, Source};
 use crate::math::statistics::bayesian_information;
@@ -80,11 +80,12 @@ fn gains(two: &Weighed, single: &Weighed) -> [f64; 2] {
     [beside_scatter, 2.0 * count as f64 * (single.fits[0].error / two.fits[0].error).ln()]
 }
 
-/// Whether the best single law agrees with the data beside scatter that is usual.
+/// Whether the best single law agrees with the data, or leaves little of them, beside scatter that is usual: what little it leaves is
+/// looked for as a further effect.
 fn suffices(best: &Weighed) -> bool {
     let (fit, scales) = (&best.fits[0], best.reference.linearisation.updating.scales);
     let usual = scales.shift < USUAL_SHIFT && scales.response < USUAL_RESPONSE;
-    usual && agrees(&best.reference, fit.chi_square, fit.parameters)
+    usual && fit.chi_square < DOUBTFUL * best.reference.count().saturating_sub(fit.parameters) as f64
 }
 
 /// Two laws with the single ones behind them. Where the evidence beside the scatter speaks for the single law, that with all runs alike
