@@ -102,8 +102,8 @@ mod tests {
         let itself = place.fit_within(Effect::Dahl, f64::INFINITY, &place).unwrap();
         assert!(itself.misfit < 0.02 * size, "{} {size}", itself.misfit);
         let iwan = place.fit_within(Effect::Iwan, f64::INFINITY, &place).unwrap();
-        assert!(iwan.misfit < 0.05 * size, "{:?} {size}", iwan);
+        assert!(iwan.misfit < 0.05 * size, "{iwan:?} {size}");
         let spring = place.fit_within(Effect::Stiffness, f64::INFINITY, &place).unwrap();
-        assert!(spring.misfit > 0.1 * size, "{:?} {size}", spring);
+        assert!(spring.misfit > 0.1 * size, "{spring:?} {size}");
     }
 }
