@@ -214,9 +214,10 @@ fn shortened<'a>(
     };
     let mut least = left(&whole)?;
     let mut best = whole;
-    let parts = SHARES.map(|share| here.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect());
-    for part in parts.into_iter().chain([vec![0.0; here.len()]]) {
-        let part: Vec<f64> = part;
+    let share_of_step =
+        |share: f64| -> Vec<f64> { here.iter().zip(target).map(|(u, to)| u + share * (to - u)).collect() };
+    let stated = vec![0.0; here.len()];
+    for part in SHARES.map(share_of_step).into_iter().chain([stated]) {
         let Some(tried) = if_possible(begun(&part))? else { continue };
         let then = left(&tried)?;
         if then < least {

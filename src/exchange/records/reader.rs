@@ -184,7 +184,7 @@ pub(crate) fn base_channel(label: &str, structure: &Structure) -> Option<Channel
 }
 
 /// That no DOF follows a base along `label`, with the directions that DOFs have.
-pub(crate) fn no_base_axis(label: &str, structure: &Structure) -> RecordProblem {
+fn no_base_axis(label: &str, structure: &Structure) -> RecordProblem {
     let moves = |axis: &usize| !structure.carried_by_base(*axis).is_empty();
     let known: Vec<&str> = (0..AXES.len()).filter(moves).map(|axis| AXES[axis]).collect();
     RecordProblem::NoBaseAxis { label: quote(label.as_bytes()), known: known.join(" or ") }
