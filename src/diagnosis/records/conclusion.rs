@@ -26,7 +26,7 @@ const BETTER: f64 = 0.8;
 /// Rounds and steps of a fit beside a part that was corrected.
 const REFITTING: [usize; 2] = [2, 4];
 
-/// Probability up to which a suggestion is told as its fit stands, without what it predicts and promises.
+/// Probability up to which a suggestion is told as its fit stands, without what it predicts.
 const UNLIKELY: f64 = 1e-3;
 
 /// Probability of a suggestion from which on a test that would tell it from the first is named.
@@ -169,8 +169,12 @@ impl Search<'_> {
             };
             return Ok(());
         }
-        for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY) {
-            self.complete(suggestion, (told, error), fits)?;
+        for suggestion in &mut diagnosis.suggestions {
+            if suggestion.probability > UNLIKELY {
+                self.complete(suggestion, (told, error), fits)?;
+            } else if !self.control.is_late() {
+                suggestion.error_after = self.promised(told, std::slice::from_ref(&suggestion.added.source))?;
+            }
         }
         let words = self.words_on_all(told, error, diagnosis)?;
         if let Some(first) = diagnosis.suggestions.first_mut() {

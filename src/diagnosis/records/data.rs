@@ -17,6 +17,9 @@ use std::f64::consts::TAU;
 const MOST_MODES: usize = 8;
 /// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
 const ABOVE: f64 = 2.0;
+/// Frequency of a mode over that of the highest peak of the records up to which it is the one that is seen there, however near Nyquist's
+/// frequency that is: a model that is off by some per cent would have it on either side of a limit.
+const SEEN_AT: f64 = 1.1;
 /// Sampling rate over the highest frequency of motion that is enough: it holds the harmonics of a law that is not linear, and
 /// steps of the model lose no phase over some hundred periods.
 const OVERSAMPLED: f64 = 20.0;
@@ -281,7 +284,7 @@ impl RecordData {
 fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
     let top = list.iter().map(|r| r.highest_hz).fold(0.0, f64::max);
     let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
-    let limit = (1.5 * top).min(nyquist);
+    let limit = (1.5 * top).min(nyquist.max(SEEN_AT * top));
     let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
     let shown = list.iter().map(|r| r.shown(modes, below, MOST_MODES)).max().unwrap_or(0);
     below.max(shown).clamp(1, MOST_MODES).min(modes.len())

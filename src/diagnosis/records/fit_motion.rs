@@ -6,6 +6,7 @@ use crate::control::Control;
 use crate::effects::{Leg, Range};
 use crate::measurement::{Channel, Quantity};
 use crate::response::transient::{TransientModel, TransientSetup};
+use dashpot_numerics::dot;
 use std::f64::consts::TAU;
 
 /// Displacement (m), velocity (m/s) and acceleration (m/s^2) at every sample of the forces on a record.
@@ -40,6 +41,17 @@ impl FitMotion {
             }
         }
         Some(relative)
+    }
+
+    /// Root mean square of the velocity along a leg over all records, m/s; none where it is no translation.
+    pub(super) fn speed(&self, leg: Leg) -> Option<f64> {
+        let (mut square, mut count) = (0.0, 0);
+        for r in 0..self.rows.len() {
+            let [_, v, _] = self.relative(leg, r)?;
+            square += dot(&v, &v);
+            count += v.len();
+        }
+        Some((square / count.max(1) as f64).sqrt())
     }
 
     /// Range of the motion along a leg; none where nothing moves.

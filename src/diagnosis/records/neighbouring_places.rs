@@ -2,14 +2,16 @@
 //! them.
 
 use super::data::RecordError;
+use super::evidence::scale;
+use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::rivals::is_same_set;
-use super::score::{ScoreTest, Scored};
+use super::score::ScoreTest;
 use super::search::Search;
 use crate::effects::{Place, Source};
 
 /// Places next to that of the best at which its law is begun.
-const BESIDE: usize = 2;
+const BESIDE: usize = 3;
 /// Most steps along the structure by which the law of the best fit is moved to where it leaves less.
 const MOVED: usize = 3;
 
@@ -58,31 +60,61 @@ impl Search<'_> {
             Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
             other => other?,
         };
-        let at = self.control.map(places.len(), |k| test.at(&places[k], &[law.effect]));
-        let mut few: Vec<Scored> = at.into_iter().flatten().collect();
-        few.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        few.truncate(BESIDE);
-        let in_place = |scored: Scored| {
-            let mut start = best.clone();
-            start.effects.pop();
-            start.effects.push(scored.source);
-            start
+        let begun = |k: usize| {
+            let by_score = test.at(&places[k], &[law.effect]).into_iter().map(|scored| scored.source);
+            let all = by_score.chain(with_work_of(law, &places[k], test.motion()));
+            let start = |source: Source| {
+                let mut start = best.clone();
+                start.effects.pop();
+                start.effects.push(source);
+                (problem.left(&start).map_or(f64::INFINITY, |left| left.total(scale(best))), start)
+            };
+            all.map(start).min_by(|a, b| a.0.total_cmp(&b.0))
         };
-        Ok(few.into_iter().map(in_place).collect())
+        let mut few: Vec<(f64, FittedRecords)> = self.control.map(places.len(), begun).into_iter().flatten().collect();
+        few.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(few.into_iter().take(BESIDE).map(|(_, start)| start).collect())
     }
 }
 
-/// Places of the kind of `place`, to the ground or between two DOFs, one step along the structure away from it.
+/// `law` at another place, where it does the same work along a `motion`: with `r` the ratio of the velocities at both places, lengths in
+/// its parameters are divided and forces multiplied by it,
+///
+/// ```text
+/// f'(d') = r f(r d')
+/// ```
+///
+/// None where either place does not move.
+pub(super) fn with_work_of(law: &Source, place: &Place, motion: &FitMotion) -> Option<Source> {
+    let speed = |place: &Place| motion.speed(*place.legs().first()?).filter(|speed| *speed > 0.0);
+    let ratio = speed(&law.place)? / speed(place)?;
+    let list = law.effect.parameters();
+    let exponent = list.iter().position(|p| p.name == "exponent").map_or(1.0, |k| law.parameters[k]);
+    let mut source = Source { place: place.clone(), ..law.clone() };
+    for (value, parameter) in source.parameters.iter_mut().zip(list) {
+        let powers = parameter.powers_of_scale(exponent);
+        // A length becomes shorter where the motion is less.
+        *value *= ratio.powf(if matches!(parameter.unit, "m" | "m/s") { -powers } else { powers });
+    }
+    let allowed = source.parameters.iter().zip(list).all(|(v, p)| p.allows(*v));
+    allowed.then_some(source)
+}
+
+/// Places one step along the structure away from `place`, to the ground or between two DOFs; of one to the ground also those between its
+/// DOF and the next, and of one between two DOFs those from each to the ground, which near a support are all but the same.
 fn next_to(place: &Place, neighbours: &[[usize; 2]]) -> Vec<Place> {
     let Place::Dofs(own) = place else { return Vec::new() };
+    let between = |pair: &[usize; 2]| Place::Dofs(pair.to_vec());
     match own[..] {
         [dof] => {
-            let other = |pair: &[usize; 2]| pair.contains(&dof).then_some(pair[usize::from(pair[0] == dof)]);
-            neighbours.iter().filter_map(other).map(|dof| Place::Dofs(vec![dof])).collect()
+            let beside = || neighbours.iter().filter(move |pair| pair.contains(&dof));
+            let other = |pair: &[usize; 2]| Place::Dofs(vec![pair[usize::from(pair[0] == dof)]]);
+            beside().map(other).chain(beside().map(between)).collect()
         }
         [a, b] => {
             let shares_one = |pair: &&[usize; 2]| pair.contains(&a) != pair.contains(&b);
-            neighbours.iter().filter(shares_one).map(|pair| Place::Dofs(pair.to_vec())).collect()
+            let ends = [a, b].map(|dof| Place::Dofs(vec![dof]));
+            neighbours.iter().filter(shares_one).map(between).chain(ends).collect()
         }
         _ => Vec::new(),
     }

@@ -1,7 +1,7 @@
 //! Fits as suggestions: probabilities, deviations, corrections beside them.
 
 use super::data::{RecordError, Records};
-use super::evidence::{misfit, parameters, scale};
+use super::evidence::{evidence, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::probability::probabilities;
 use super::problem::modes;
@@ -134,17 +134,20 @@ pub(super) fn corrections_of_parts(records: &Records, fit: &FittedRecords) -> Ve
 }
 
 /// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little, with as little
-/// corrected.
+/// corrected; where what is left is noise only those for which the evidence does not speak all the same.
 pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
     let unit = found.iter().map(scale).fold(f64::INFINITY, f64::min);
     let cost = |f: &FittedRecords| f.chi_square + unit * f.prior;
-    let simple: Vec<(f64, Source)> = found.iter().filter_map(|f| Some((cost(f), f.effects.last()?.clone()))).collect();
+    let simple: Vec<(f64, f64, Source)> =
+        found.iter().filter_map(|f| Some((cost(f), evidence(f, unit), f.effects.last()?.clone()))).collect();
     let needless = |fit: &FittedRecords| {
         let Some(own) = fit.effects.last() else { return false };
-        let plainer = |(left, other): &(f64, Source)| {
+        let wrong = usize::from(misfit(fit) > MODEL_ERROR);
+        let plainer = |(left, worth, other): &(f64, f64, Source)| {
             other.place.is_same(&own.place)
                 && other.parameters.len() < own.parameters.len()
-                && *left <= PLAIN[usize::from(misfit(fit) > MODEL_ERROR)] * cost(fit)
+                && *left <= PLAIN[wrong] * cost(fit)
+                && (wrong == 1 || *worth <= evidence(fit, unit))
         };
         simple.iter().any(plainer)
     };

@@ -22,8 +22,6 @@ const MOVED: [f64; 2] = [4.0, 2.0];
 const LEAST: [f64; 2] = [0.01, 1e-4];
 /// Rounds and steps of the fits.
 const ROUNDS: [usize; 2] = [2, 4];
-/// The same of those of initial states.
-const PROMISING: [usize; 2] = [3, 3];
 
 /// Choices that are fitted, those first that cost least to first order: the nearest two rivals of the first, whose order an error of the
 /// second order may turn. Fitting all of them gave the same verdicts on the records of seeds 3400 to 3405.
@@ -251,16 +249,8 @@ impl Search<'_> {
             ..FittedRecords::start(&records, &[])
         };
         start.known[..told.known.len()].copy_from_slice(&told.known);
-        // The same effects begin near where they end.
-        let near = effects.len() == told.effects.len() && told.initial.len() == start.initial.len();
-        let control = self.control.unhurried();
-        let fitted = if near {
-            start.initial.clone_from(&told.initial);
-            let free = Free::nothing();
-            FitProblem { records: &records, free, share: 1.0, control: &control }.begin(&start, PROMISING)
-        } else {
-            started_from(&records, start, &control)
-        };
+        // From where comparing the project begins, or it might end elsewhere.
+        let fitted = started_from(&records, start, &self.control.unhurried());
         match fitted.and_then(|fit| fit.error(&records, 0.0, 1.0)) {
             Err(RecordError::Model { .. }) => Ok(f64::INFINITY),
             other => other,

@@ -5,10 +5,11 @@ use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
+use super::neighbouring_places::with_work_of;
 use super::rivals::is_same_set;
 use super::score::{ScoreTest, Scored};
 use super::search::Search;
-use crate::effects::{Effect, Leg, Source};
+use crate::effects::{Effect, Leg, Place, Source};
 use crate::response::transient::force_along;
 use dashpot_numerics::dot;
 
@@ -62,10 +63,20 @@ impl Search<'_> {
             };
             if !found.iter().any(tried) {
                 starts.extend(self.begun_as(level, rival, &[law.effect])?);
+                starts.extend(self.with_its_work(level, best, &other.place));
             }
         }
         starts.retain(|s| !self.given_up.holds(&s.effects, best));
         Ok(starts)
+    }
+
+    /// `fit` with its last law at another place, where it does the same work.
+    fn with_its_work(&self, level: usize, fit: &FittedRecords, place: &Place) -> Option<FittedRecords> {
+        let motion = FitMotion::new(&self.levels[level], fit, self.control).ok()?;
+        let mut start = fit.clone();
+        let law = start.effects.pop()?;
+        start.effects.push(with_work_of(&law, place, &motion)?);
+        Some(start)
     }
 
     /// `fit` with its last law replaced by others, doing the same force along its motion: the [`BEGUN`] shapes of each, and
@@ -127,7 +138,6 @@ mod tests {
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::diagnosis::records::fitted::FittedRecords;
-    use crate::effects::Place;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
     use crate::structure::Structure;
