@@ -56,15 +56,15 @@ fn noisy(fit: &HarmonicFit) -> Option<Finding> {
     let ratios = fit.channels.iter().zip(references(fit)).filter(|(channel, _)| dead(channel).is_none());
     let (channel, ratio) =
         ratios.map(|(channel, reference)| (channel, channel.noise / reference)).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (ratio > NOISY).then(|| Finding {
-        flag: Flag::Noisy,
-        reason: format!("the noise of {} is {:.0} % of its signal", channel.channel, 100.0 * ratio),
+    (ratio > NOISY).then(|| {
+        let reason = format!("the noise of {} is {:.0} % of its signal", channel.channel, 100.0 * ratio);
+        Finding::of_channel(Flag::Noisy, &channel.channel, reason)
     })
 }
 
 /// A channel that shows nothing, or nothing that noise alone would not.
 fn dead(channel: &ChannelFit) -> Option<Finding> {
-    let finding = |reason: String| Some(Finding { flag: Flag::DeadChannel, reason });
+    let finding = |reason: String| Some(Finding::of_channel(Flag::DeadChannel, &channel.channel, reason));
     if channel.amplitudes.iter().all(|y| y.re == 0.0 && y.im == 0.0) {
         return finding(format!("{} does not move at all", channel.channel));
     }
@@ -108,11 +108,11 @@ pub fn phase_sensitivity(fit: &HarmonicFit) -> Option<f64> {
 
 fn phase_sensitive(fit: &HarmonicFit) -> Option<Finding> {
     let sensitivity = phase_sensitivity(fit)?;
-    (sensitivity > PHASE_SENSITIVE).then(|| Finding {
-        flag: Flag::PhaseSensitive,
-        reason: format!(
+    (sensitivity > PHASE_SENSITIVE).then(|| {
+        let reason = format!(
             "one degree of phase error at the drive point changes the energy by {:.0} %",
             (100.0 * sensitivity).min(9999.0)
-        ),
+        );
+        Finding::of_record(Flag::PhaseSensitive, reason)
     })
 }

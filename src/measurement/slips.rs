@@ -31,7 +31,7 @@ pub(super) fn wrong_frequency(record: &Record, fit: &HarmonicFit, given_hz: f64)
     let reason = slip(record, fit, given_hz, &lead)
         .or_else(|| other(record, fit, given_hz, &lead))
         .or_else(|| multiple(fit, given_hz));
-    reason.map(|reason| Finding { flag: Flag::WrongFrequency, reason })
+    reason.map(|reason| Finding::of_record(Flag::WrongFrequency, reason))
 }
 
 /// A small error of the frequency: the phase slips over the record.
