@@ -40,6 +40,7 @@ const VALLEYS: f64 = 1.3;
 const STEP: f64 = 1e-3;
 
 /// The free forces of one place and the motions they imply.
+#[derive(Clone)]
 pub(crate) struct PlaceData {
     pub(super) spot: Spot,
     /// `[run][harmonic]`.
@@ -157,8 +158,8 @@ impl PlaceData {
         if promising.is_empty() {
             return fits;
         }
-        let thinned = self.thinned();
-        let on = thinned.as_ref().unwrap_or(self);
+        let subsample = self.subsample();
+        let on = subsample.as_ref().unwrap_or(self);
         let bound = bound * on.count() as f64 / self.count().max(1) as f64;
         let fit = |effect| on.fit_within(effect, bound, on).map(|fit| self.on_all_runs(fit));
         fits.extend(promising.into_iter().filter_map(fit));
@@ -167,8 +168,8 @@ impl PlaceData {
 
     /// Fits every effect of no more than two parameters that can act here.
     pub(crate) fn simple_fits(&self) -> Vec<LawFit> {
-        let thinned = self.thinned();
-        let grid = thinned.as_ref().unwrap_or(self);
+        let subsample = self.subsample();
+        let grid = subsample.as_ref().unwrap_or(self);
         let simple = Effect::ALL.into_iter().filter(|effect| is_simple(*effect));
         simple.filter_map(|effect| self.fit_within(effect, f64::INFINITY, grid)).collect()
     }
