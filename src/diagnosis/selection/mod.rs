@@ -1,5 +1,6 @@
 //! Fits on the response, stepwise selection of effects, conclusions, the next test.
 
+mod backward_elimination;
 mod beside_corrections;
 pub(crate) mod conclusion;
 pub(crate) mod estimator;

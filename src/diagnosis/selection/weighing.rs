@@ -11,8 +11,8 @@ use crate::diagnosis::selection::conclusion::UNEXPLAINED;
 use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, same_set};
-use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::settled::SETTLED;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
@@ -31,6 +31,17 @@ pub(super) struct Weighed<'a> {
     pub probabilities: Vec<f64>,
     /// Evidence of the best.
     pub least: f64,
+}
+
+impl<'a> Weighed<'a> {
+    /// Makes it what was found last; its model and its evidence.
+    pub(super) fn taken_into(self, found: &mut Found) -> (ReferenceModel<'a>, f64) {
+        let Self { reference, fits, probabilities, least } = self;
+        found.agrees = agrees(&reference, fits[0].chi_square, fits[0].parameters);
+        let scale = scale_of(&fits, reference.count());
+        found.by_size.push(FittedSets { scale, noise: reference.noise.clone(), fits, probabilities });
+        (reference, least)
+    }
 }
 
 /// A candidate with the model that was updated beside it.
