@@ -2,11 +2,11 @@
 
 use crate::control::Control;
 use crate::diagnosis::channels::{self, ChannelFault};
-use crate::diagnosis::on_all_runs;
+use crate::diagnosis::errors_on_all_runs;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::Predictor;
-use crate::diagnosis::residual::telling_runs::telling;
+use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
@@ -62,10 +62,10 @@ fn searched(
     }
     let data = Data::new(problem)?;
     let all = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
-    let Some(data) = telling(&all) else { return on_runs(problem, &all, control, early) };
+    let Some(data) = informative_runs(&all) else { return on_runs(problem, &all, control, early) };
     let diagnosis = on_runs(problem, &data, control, early)?;
     let runs = data.runs.iter().map(|run| run.index).collect();
-    Ok(Diagnosis { runs, ..on_all_runs::told(problem, &all, diagnosis, control)? })
+    Ok(Diagnosis { runs, ..errors_on_all_runs::with_errors(problem, &all, diagnosis, control)? })
 }
 
 /// Reversed, exchanged and misread channels alone, by the steady runs of `problem`, and how the model agrees with what they read.
@@ -77,7 +77,7 @@ pub(crate) fn faults_of_channels(
     control: &Control,
 ) -> Result<(Vec<ChannelFault>, Step), DiagnosisError> {
     let all = Data::new(problem)?;
-    let data = telling(&all).unwrap_or(all);
+    let data = informative_runs(&all).unwrap_or(all);
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
     Ok((channels::find(&predictor, &data, &reference.predictions), reference.agreement()))
