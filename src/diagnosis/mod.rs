@@ -15,6 +15,7 @@
 
 pub mod candidates;
 pub mod channels;
+pub(crate) mod combined;
 pub mod compare;
 pub mod component;
 pub mod diagnose;
@@ -25,7 +26,6 @@ pub mod records;
 pub mod residual;
 pub mod result;
 pub(crate) mod selection;
-pub(crate) mod together;
 pub mod updating;
 
 pub use compare::{Comparison, compare};
