@@ -32,7 +32,7 @@ const ENOUGH: f64 = 3.0;
 /// best once its parameters are fitted.
 const PROMISING: f64 = 10.0;
 /// Gain of the misfit, in units of what is left per datum, below which a regression has arrived: it orders candidates that are
-/// followed if within dozens of such units, and is where their fit on the response starts.
+/// refined if within dozens of such units, and is where their fit on the response starts.
 const ENOUGH_FOR_A_START: f64 = 1.0;
 /// How many times what the best shape of a law leaves another may leave that a fit starts from too.
 const VALLEYS: f64 = 1.3;

@@ -17,7 +17,7 @@ const CHOSEN: f64 = 16.0;
 /// The same of one spring or mass in place of many corrections: having been chosen among some sixty places, each the likelier by
 /// none of the corrections being larger than models are wrong by.
 const CHANGED: f64 = 6.0;
-/// What it must promise to be followed.
+/// What it must promise to be refined.
 const PROMISED: f64 = 4.0;
 /// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
 /// correction itself.
@@ -41,7 +41,7 @@ pub(super) fn beside_updating(
     let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
     let stated = reference.estimator().error(&reference.predictions);
     let bare = reference.bare()?;
-    // Before candidates are followed, which takes long: what differs from run to run may be more than tests usually differ by.
+    // Before candidates are refined, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
     let (mut here, first) = match first_fits((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
@@ -59,7 +59,7 @@ pub(super) fn beside_updating(
         let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());
         let fits = match (&from, first.take()) {
             (None, Some(fits)) => fits,
-            (Some(from), _) => here.followed_beside(from, FURTHER)?,
+            (Some(from), _) => here.refined_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
         if found.by_size.is_empty() {
@@ -123,7 +123,7 @@ enum First<'a> {
 }
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
-/// evidence beside them, none is followed but what one change explains instead of them.
+/// evidence beside them, none is refined but what one change explains instead of them.
 fn first_fits<'a>(
     (reference, before): (&ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
@@ -143,12 +143,12 @@ fn first_fits<'a>(
             Ok(localised) => localised,
             Err(fault) => return Ok(First::Unreliable(fault)),
         };
-        fits = localised.followed(unfitted)?;
-        fits.extend(reference.followed_whole(before)?);
+        fits = localised.refined(unfitted)?;
+        fits.extend(reference.refined_whole(before)?);
         here = localised;
     }
-    let follow = |k: usize| bare.followed_change(&changes[k]);
-    fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
+    let refine = |k: usize| bare.refined_change(&changes[k]);
+    fits.extend(bare.control.map(changes.len(), refine).into_iter().collect::<Result<Vec<_>, _>>()?);
     Ok(First::Fits(here, fits))
 }
 

@@ -172,7 +172,7 @@ fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidat
 }
 
 /// The laws that the best may have been taken for, in its stead and each with a model settled beside it: where the best is linear,
-/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to follow.
+/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to refine.
 fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let (reference, left) = (&best.reference, best.fit.chi_square / best.reference.count() as f64);
     let linear = best.fit.effects.iter().all(|e| e.effect.is_linear());
@@ -204,7 +204,7 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
 }
 
 /// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
-/// simpler law that was followed by itself may have ended in a valley of its own.
+/// simpler law that was refined by itself may have ended in a valley of its own.
 fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let mut limits = Vec::new();
     let late = best.reference.control.is_late();
