@@ -4,9 +4,9 @@ use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_open};
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
+use crate::diagnosis::selection::cross_validation::{exceeds, groups};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, Found, MOST_EFFECTS, agrees};
-use crate::diagnosis::selection::left_out::{exceeds, groups};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
@@ -215,7 +215,7 @@ fn predicts_better(
         return Ok(true);
     }
     let groups = groups(likely.data);
-    Ok(exceeds(&weighed.reference.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
+    Ok(exceeds(&weighed.reference.cross_validated(Some(best), &groups)?, &likely.cross_validated(before, &groups)?))
 }
 
 /// Whether effects leave more `error` than those `before` them, the first of them than the model as it is `stated`: what only lowers the

@@ -3,6 +3,7 @@
 mod backward_elimination;
 mod beside_corrections;
 pub(crate) mod conclusion;
+mod cross_validation;
 pub(crate) mod estimator;
 mod exactness;
 pub(crate) mod fit_problem;
@@ -10,7 +11,6 @@ pub(crate) mod fits;
 pub(crate) mod fitted_model;
 pub(crate) mod found;
 mod joint_fit;
-mod left_out;
 pub(crate) mod levenberg_marquardt;
 mod localised;
 pub(crate) mod next_test;

@@ -1,7 +1,7 @@
 //! Candidates with models of their own: ordered by their evidence (what they leave, what their parameters and the freedom of the
 //! model beside them cost), with probabilities by how well they predict runs that are left out.
 
-use super::left_out::{exceeds, groups};
+use super::cross_validation::{exceeds, groups};
 use super::short_list::VOID;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
@@ -167,7 +167,7 @@ fn error_of(reference: &ReferenceModel, fit: &FittedModel) -> Result<f64, Diagno
 
 fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
     let error = error_of(&reference, &fit)?;
-    let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
+    let densities = reference.cross_validated(Some(&fit), &groups(reference.data))?;
     Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
 }
 
