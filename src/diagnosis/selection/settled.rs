@@ -4,9 +4,9 @@
 use super::updated::REFITTED;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::selection::exactness::{rubs, settings_for};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::solver_settings::{has_friction, settings_for};
 use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::Settings;
 
@@ -53,7 +53,7 @@ impl<'a> ReferenceModel<'a> {
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let settings = settings_for(&fit, self.count(), settings);
         // What friction leaves depends on the number of harmonics.
-        let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
+        let fit = if has_friction(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
         let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {

@@ -5,11 +5,11 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possibl
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
-use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};

@@ -8,12 +8,12 @@ use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::UNEXPLAINED;
-use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::settled::SETTLED;
+use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::diagnosis::updating::scales::Scales;
@@ -184,7 +184,7 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
     fits.sort_by(|a, b| cost(reference, Some(a)).total_cmp(&cost(reference, Some(b))));
     let bound = |fit: &FittedModel| match doubtful {
         // Friction is judged with more harmonics than it is fitted with here.
-        true if rubs(&fit.effects) => HEAVY * best.cost,
+        true if has_friction(&fit.effects) => HEAVY * best.cost,
         true => best.cost,
         false => best.cost + LIGHT,
     };
