@@ -1,7 +1,7 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each refined with a model of its own.
 
 use super::search::{View, joined};
-use super::short_list::{Breadth, needed};
+use super::short_list::{Breadth, without_falling_friction};
 use super::weighing::{bound_beside, cost};
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::localisation::free_force::BesideWhole;
@@ -56,7 +56,7 @@ impl<'a> ReferenceModel<'a> {
         &self,
         unfitted: Vec<UnfittedSet>,
     ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
-        let unfitted = promising(needed(unfitted), self.count());
+        let unfitted = promising(without_falling_friction(unfitted), self.count());
         let mut view = self.view(None)?;
         let mut targets = Vec::with_capacity(unfitted.len());
         for unfitted in &unfitted {
@@ -126,7 +126,7 @@ impl<'a> ReferenceModel<'a> {
         drop(view);
         unfitted.retain(|d| d.score < bound);
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let unfitted = promising(needed(unfitted), self.count());
+        let unfitted = promising(without_falling_friction(unfitted), self.count());
         // On the same footing as what they are beside.
         let settings = settings_for(from, self.count(), &SEARCH);
         self.all_refined(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
