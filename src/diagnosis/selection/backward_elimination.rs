@@ -10,7 +10,7 @@ use crate::diagnosis::selection::updated::REFITTED;
 use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
 use crate::effects::Source;
 
-/// Times that a model is settled beside the effects that are left when another is taken away.
+/// Rounds in which a model converges beside the effects that are left when another is taken away.
 const UPDATES: usize = 6;
 
 /// The effects of `from`, whose evidence is `least`, in the model of the best of the candidates for one effect more, where they have
@@ -34,7 +34,7 @@ pub(super) fn without_addition<'a>(
     if cost(&own, Some(&begun)) > least - EVIDENCE {
         return Ok(None);
     }
-    let better = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])?;
+    let better = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])?;
     Ok(better.filter(|better| better.fits[0].effects.len() == same.len() && better.least < least - EVIDENCE))
 }
 
@@ -63,7 +63,7 @@ pub(super) fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<()
 }
 
 /// The model without the effects of the last set of a search that have a parameter which the data do not know, and without which what
-/// corrections do instead has no less evidence: the model is settled beside the others, for corrections beside the whole set are not
+/// corrections do instead has no less evidence: the model converges beside the others, for corrections beside the whole set are not
 /// those beside fewer.
 pub(super) fn without_open<'a>(
     reference: ReferenceModel<'a>,
@@ -77,7 +77,7 @@ pub(super) fn without_open<'a>(
         fewer.remove(k);
         let own = reference.with_scales(reference.linearisation.updating.scales);
         let begun = own.estimator().fit(&fewer, REFITTED, &SEARCH, &best.starts)?;
-        let Some(weighed) = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])? else { break };
+        let Some(weighed) = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])? else { break };
         if weighed.least > cost(&reference, Some(&best)) + EVIDENCE || weighed.fits[0].effects.len() != fewer.len() {
             break;
         }
@@ -151,14 +151,14 @@ mod tests {
             let noise = reference.noise.clone();
             let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
             let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
-            let settled = without_open(reference, &mut found).unwrap();
-            let structure = settled.linearisation.updating.structure(settled.predictor.stated().0);
+            let converged = without_open(reference, &mut found).unwrap();
+            let structure = converged.linearisation.updating.structure(converged.predictor.stated().0);
             let ground = structure.matrices().unwrap().stiffness[(0, 0)] - 1e4;
             (found.by_size.pop().unwrap().fits.remove(0).effects, ground / 2e4)
         })
     }
 
-    /// The model is settled beside what is left: its spring has moved to where the records have it.
+    /// The model has converged beside what is left: its spring has moved to where the records have it.
     #[test]
     fn an_effect_that_the_data_do_not_know_goes_from_a_set_and_the_model_settles() {
         let idle = source(Effect::Coulomb, &[1], &[1e-6]);
@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(left_of(&[hidden(), dashpot], &[0]).0.len(), 2);
     }
 
-    /// The hidden spring and an idle effect more, in the model that has settled beside them: the spring alone has the evidence that it
+    /// The hidden spring and an idle effect more, in the model that has converged beside them: the spring alone has the evidence that it
     /// lacks in the model as it is stated. Where it has that evidence already, or is not among the effects, there is nothing to take.
     #[test]
     fn what_one_effect_more_brought_by_another_minimum_is_taken_without_it() {
@@ -185,12 +185,12 @@ mod tests {
             let from = fitted(&stated, &[hidden()]);
             let before = cost(&stated, Some(&from));
             let idle = source(Effect::Coulomb, &[1], &[1e-6]);
-            let (settled, only) = stated.settled(from.clone(), &SEARCH, UPDATES).unwrap();
-            let least = cost(&settled, Some(&only));
+            let (converged, only) = stated.converged(from.clone(), &SEARCH, UPDATES).unwrap();
+            let least = cost(&converged, Some(&only));
             assert!(least < before - EVIDENCE, "{least} {before}");
-            let more = fitted(&settled, &[hidden(), idle.clone()]);
-            let another = fitted(&settled, &[idle]);
-            let candidates = [(settled, more)];
+            let more = fitted(&converged, &[hidden(), idle.clone()]);
+            let another = fitted(&converged, &[idle]);
+            let candidates = [(converged, more)];
             let taken = without_addition(&candidates, &from, before).unwrap().unwrap();
             assert!(
                 matches!(taken.fits[0].effects.as_slice(), [only] if only.is_same(&hidden())),
@@ -199,8 +199,8 @@ mod tests {
             );
             assert!(taken.least < before - EVIDENCE, "{} {before}", taken.least);
             assert!(without_addition(&candidates, &from, least).unwrap().is_none());
-            let [(settled, _)] = candidates;
-            assert!(without_addition(&[(settled, another)], &from, before).unwrap().is_none());
+            let [(converged, _)] = candidates;
+            assert!(without_addition(&[(converged, another)], &from, before).unwrap().is_none());
         });
     }
 }

@@ -84,7 +84,7 @@ impl<'a> ReferenceModel<'a> {
         let updating = Updating::all(stated, known, self.data);
         let reference = self.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;
         let fit = reference.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)?;
-        reference.settled(fit, &SEARCH, UPDATES)
+        reference.converged(fit, &SEARCH, UPDATES)
     }
 
     /// `count` candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then.
@@ -106,7 +106,7 @@ impl<'a> ReferenceModel<'a> {
         let rest = begun.split_off(finalists.count());
         let further = |k: usize| {
             let (reference, fit) = &begun[k];
-            reference.with_scales(reference.linearisation.updating.scales).settled(fit.clone(), &SEARCH, UPDATES - 1)
+            reference.with_scales(reference.linearisation.updating.scales).converged(fit.clone(), &SEARCH, UPDATES - 1)
         };
         let mut fits = self.control.map(begun.len(), further).into_iter().collect::<Result<Vec<_>, _>>()?;
         fits.extend(rest);
@@ -159,7 +159,7 @@ impl<'a> ReferenceModel<'a> {
             }
             _ => whole,
         };
-        reference.settled(fit, &SEARCH, 1)
+        reference.converged(fit, &SEARCH, 1)
     }
 
     /// The laws of the whole structure, regressed at the measured motion beside the updating parameters as free forces at one

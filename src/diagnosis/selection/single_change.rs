@@ -83,7 +83,7 @@ impl<'a> ReferenceModel<'a> {
         let effects = std::slice::from_ref(&change.source);
         let reference = self.updated_as(&change.updating, effects, &Vec::new(), &SEARCH)?;
         let fit = reference.estimator().fit(effects, STEPS, &SEARCH, &[])?;
-        reference.settled(fit, &SEARCH, UPDATES)
+        reference.converged(fit, &SEARCH, UPDATES)
     }
 
     /// Linear laws of one parameter, at the places that leave least to a free force, and of the whole structure.

@@ -12,8 +12,8 @@ use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
-use crate::diagnosis::selection::settled::SETTLED;
 use crate::diagnosis::selection::solver_settings::has_friction;
+use crate::diagnosis::selection::successive_linearisation::CONVERGED;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::diagnosis::updating::scales::Scales;
@@ -194,9 +194,9 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
         let near = cost(reference, Some(&fit)) < bound(&fit) && is_effect(reference, &fit);
         if !known && near && wider.len() < WIDER {
             let own = reference.with_scales(reference.linearisation.updating.scales);
-            let settled = own.settled(fit, &SEARCH, WIDER_UPDATES)?;
-            for (there, settled) in by_simplest_name(vec![settled])? {
-                wider.push(candidate(there, settled)?);
+            let converged = own.converged(fit, &SEARCH, WIDER_UPDATES)?;
+            for (there, converged) in by_simplest_name(vec![converged])? {
+                wider.push(candidate(there, converged)?);
             }
         }
     }
@@ -302,16 +302,16 @@ fn finished(
             break;
         }
         let before = cost(&reference, Some(&fit));
-        let (there, settled) = reference.settled(fit, &SEARCH, UPDATES)?;
-        let (likely, again) = there.with_likely_scales(Some(&settled), &SEARCH)?;
-        let again = again.unwrap_or_else(|| settled.clone());
-        let better = cost(&likely, Some(&again)) < cost(&there, Some(&settled));
-        (reference, fit) = if better { (likely, again) } else { (there, settled) };
-        if before - cost(&reference, Some(&fit)) < SETTLED {
+        let (there, converged) = reference.converged(fit, &SEARCH, UPDATES)?;
+        let (likely, again) = there.with_likely_scales(Some(&converged), &SEARCH)?;
+        let again = again.unwrap_or_else(|| converged.clone());
+        let better = cost(&likely, Some(&again)) < cost(&there, Some(&converged));
+        (reference, fit) = if better { (likely, again) } else { (there, converged) };
+        if before - cost(&reference, Some(&fit)) < CONVERGED {
             break;
         }
     }
-    reference.settled(fit, &FINAL, UPDATES)
+    reference.converged(fit, &FINAL, UPDATES)
 }
 
 /// Whether both are the same coupling read from either end.
