@@ -16,7 +16,7 @@ impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place, and from where they do the same force; of these laws,
     /// those that are `wanted`.
-    pub(crate) fn wider(
+    pub(crate) fn generalisations(
         &self,
         best: &FittedModel,
         wanted: impl Fn(Effect) -> bool,

@@ -78,7 +78,7 @@ const FINISHED: usize = 2;
 /// Weighs fitted candidates, each with the model that was updated beside it.
 pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(by_simplest_name(fits)?)?;
-    let wider = all.first().map_or(Ok(Vec::new()), wider_than)?;
+    let wider = all.first().map_or(Ok(Vec::new()), generalisations_of)?;
     let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));
     let wider: Vec<Candidate> = wider.into_iter().filter(fresh).collect();
     all.retain(|c| !wider.iter().any(|w| same_set(&w.fit.effects, &c.fit.effects)));
@@ -173,14 +173,14 @@ fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidat
 
 /// The laws that the best may have been taken for, in its stead and each with a model settled beside it: where the best is linear,
 /// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to refine.
-fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+fn generalisations_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let (reference, left) = (&best.reference, best.fit.chi_square / best.reference.count() as f64);
     let linear = best.fit.effects.iter().all(|e| e.effect.is_linear());
     let doubtful = left > DOUBTFUL;
     if reference.control.is_late() || left > UNEXPLAINED || !(linear || doubtful) {
         return Ok(Vec::new());
     }
-    let mut fits = reference.wider(&best.fit, |effect| doubtful || effect.is_linear())?;
+    let mut fits = reference.generalisations(&best.fit, |effect| doubtful || effect.is_linear())?;
     fits.sort_by(|a, b| cost(reference, Some(a)).total_cmp(&cost(reference, Some(b))));
     let bound = |fit: &FittedModel| match doubtful {
         // Friction is judged with more harmonics than it is fitted with here.
