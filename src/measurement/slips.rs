@@ -38,7 +38,7 @@ pub(super) fn wrong_frequency(record: &Record, fit: &HarmonicFit, given_hz: f64)
 fn slip(record: &Record, fit: &HarmonicFit, given_hz: f64, lead: &[usize]) -> Option<String> {
     let Frequency { omega, deviation } = refine(record, fit.omega, fit.harmonics(), lead).ok()?;
     let slip = (omega - fit.omega).abs() * record.duration();
-    // Beyond a line of the spectrum the refinement may have run into a neighbouring valley.
+    // Beyond a line of the spectrum the refinement may have run into a neighbouring local minimum.
     if !(SLIP..=TAU).contains(&slip) || slip < SLIP_DEVIATIONS * deviation * record.duration() {
         return None;
     }

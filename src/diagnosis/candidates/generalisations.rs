@@ -1,5 +1,5 @@
 //! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
-//! own fits may have ended in a valley of the wrong side while the model was still far off.
+//! own fits may have ended in another local minimum while the model was still far off.
 
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;

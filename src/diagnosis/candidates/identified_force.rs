@@ -35,7 +35,7 @@ const PROMISING: f64 = 10.0;
 /// refined if within dozens of such units, and is where their fit on the response starts.
 const ENOUGH_FOR_A_START: f64 = 1.0;
 /// How many times what the best shape of a law leaves another may leave that a fit starts from too.
-const VALLEYS: f64 = 1.3;
+const NEAR_BEST: f64 = 1.3;
 /// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
 const STEP: f64 = 1e-3;
 
@@ -232,9 +232,9 @@ impl PlaceData {
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, _) = grid.first()?;
-        // Laws of many parameters have many valleys.
+        // Laws of many parameters have many local minima.
         let starts = if effect.parameters().len() > 2 { 3 } else { 1 };
-        let close = |(left, _): &&(f64, Vec<f64>)| *left < VALLEYS * misfit;
+        let close = |(left, _): &&(f64, Vec<f64>)| *left < NEAR_BEST * misfit;
         let descent = |(_, p): &(f64, Vec<f64>)| {
             let (variables, start) = Variables::new(&[source(p)]);
             let Ok(Descent { theta, chi_square, .. }) = descend(

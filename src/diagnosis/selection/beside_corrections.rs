@@ -173,7 +173,7 @@ fn rival<'a>(
     Ok(((likely, least), near))
 }
 
-/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
+/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another local minimum than
 /// those beside the effect. Springs and masses are moved into the parts that they act on as well.
 fn alone<'a>(
     (likely, least): (ReferenceModel<'a>, f64),

@@ -204,7 +204,7 @@ fn generalisations_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, Di
 }
 
 /// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
-/// simpler law that was refined by itself may have ended in a valley of its own.
+/// simpler law that was refined by itself may have ended in another local minimum.
 fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let mut limits = Vec::new();
     let late = best.reference.control.is_late();
