@@ -22,7 +22,6 @@ mod fourier;
 mod friction;
 mod harmonic_system;
 mod iterate;
-mod kept;
 mod linear_leg;
 mod modal_basis;
 mod model;
@@ -34,6 +33,7 @@ mod resonant;
 mod settings;
 mod solve;
 mod stability;
+mod unknown_subset;
 
 pub(crate) use compliance::LinearPart;
 pub(crate) use condense::Condensed;

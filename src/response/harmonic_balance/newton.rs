@@ -3,8 +3,8 @@
 
 use super::condense::Condensed;
 use super::fourier::Fourier;
-use super::kept::{DROPPED, Kept};
 use super::nonlinear_leg::{Answer, SLACK};
+use super::unknown_subset::{DROPPED, UnknownSubset};
 use dashpot_numerics::dot;
 use faer::c64;
 
@@ -79,36 +79,36 @@ impl Balance<'_> {
 
     /// Jacobian `dR/dF`, row by row.
     pub(crate) fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
-        self.jacobian_of(answers, &Kept::all(self.condensed))
+        self.jacobian_of(answers, &UnknownSubset::all(self.condensed))
     }
 
-    /// The rows and columns of the Jacobian that belong to the unknowns `kept`.
-    pub(crate) fn jacobian_of(&self, answers: &[Answer], kept: &Kept) -> Vec<f64> {
-        let (size, width) = (kept.indices.len(), self.condensed.width());
+    /// The rows and columns of the Jacobian that belong to the unknowns `subset`.
+    pub(crate) fn jacobian_of(&self, answers: &[Answer], subset: &UnknownSubset) -> Vec<f64> {
+        let (size, width) = (subset.indices.len(), self.condensed.width());
         let mut jacobian = vec![0.0; size * size];
         for (i, answer) in answers.iter().enumerate() {
-            for &row in &kept.rows {
-                let own = kept.slot[i * width + row];
+            for &row in &subset.rows {
+                let own = subset.slot[i * width + row];
                 let out = &mut jacobian[own * size..(own + 1) * size];
-                self.add_coupled(i, &answer.by_motion[row * width..(row + 1) * width], kept, out);
+                self.add_coupled(i, &answer.by_motion[row * width..(row + 1) * width], subset, out);
                 if let Some(by_force) = &answer.by_force {
-                    for &column in &kept.rows {
-                        out[kept.slot[i * width + column]] -= by_force[row * width + column];
+                    for &column in &subset.rows {
+                        out[subset.slot[i * width + column]] -= by_force[row * width + column];
                     }
                 }
                 out[own] += 1.0 + self.slack(i);
             }
         }
-        self.resonant_rows(&mut jacobian, kept);
+        self.resonant_rows(&mut jacobian, subset);
         jacobian
     }
 
     /// Rows `1 + z C` of the modes at resonance.
-    fn resonant_rows(&self, jacobian: &mut [f64], kept: &Kept) {
-        let (condensed, size) = (self.condensed, kept.indices.len());
+    fn resonant_rows(&self, jacobian: &mut [f64], subset: &UnknownSubset) {
+        let (condensed, size) = (self.condensed, subset.indices.len());
         for (h, r, z) in self.resonances() {
             let (system, i) = (&condensed.systems[h], condensed.legs.len() + r);
-            let row = kept.slot[condensed.resonant_index(h, r)];
+            let row = subset.slot[condensed.resonant_index(h, r)];
             if row == DROPPED {
                 continue;
             }
@@ -116,7 +116,7 @@ impl Balance<'_> {
             jacobian[(row + 1) * size + row + 1] += 1.0;
             for j in 0..system.count() {
                 let slope = z * system.coupling(i, j);
-                let column = kept.slot[condensed.index(h, j)];
+                let column = subset.slot[condensed.index(h, j)];
                 // (a - i b) -> slope (a - i b), cosine and sine.
                 jacobian[row * size + column] += slope.re;
                 jacobian[row * size + column + 1] += slope.im;
@@ -127,18 +127,18 @@ impl Balance<'_> {
     }
 
     /// Adds a row of `Phi_D C_i`, the slopes of leg `i` by its own coefficients given.
-    fn add_coupled(&self, i: usize, slopes: &[f64], kept: &Kept, out: &mut [f64]) {
-        if kept.mean {
+    fn add_coupled(&self, i: usize, slopes: &[f64], subset: &UnknownSubset, out: &mut [f64]) {
+        if subset.mean {
             let (system, width) = (&self.condensed.systems[0], self.condensed.width());
             for j in 0..system.count() {
-                out[kept.slot[j * width]] += slopes[0] * system.coupling(i, j).re;
+                out[subset.slot[j * width]] += slopes[0] * system.coupling(i, j).re;
             }
         }
-        for &h in &kept.orders {
+        for &h in &subset.orders {
             let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
             let system = &self.condensed.systems[h];
             for j in 0..system.count() {
-                let (c, cos) = (system.coupling(i, j), kept.slot[self.condensed.index(h, j)]);
+                let (c, cos) = (system.coupling(i, j), subset.slot[self.condensed.index(h, j)]);
                 out[cos] += a * c.re - b * c.im;
                 out[cos + 1] += a * c.im + b * c.re;
             }
