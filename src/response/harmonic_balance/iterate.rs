@@ -109,7 +109,7 @@ impl Balance<'_> {
         let mut step = vec![0.0; state.residual.len()];
         for (number, subset) in sets.iter().enumerate() {
             let mut part: Vec<f64> = subset.indices.iter().map(|&i| state.residual[i]).collect();
-            let fresh = || Lu::new(part.len(), self.jacobian_of(&state.answers, subset));
+            let fresh = || Lu::new(part.len(), self.jacobian_of(&state.evaluations, subset));
             if number == 0 {
                 fresh()?.solve(&mut part);
             } else {

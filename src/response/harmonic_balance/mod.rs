@@ -9,7 +9,6 @@
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
 //! (`continuation`; `branches` at one force); stability is that of Floquet's multipliers (`stability`).
 
-mod answers;
 mod arc;
 mod branches;
 mod compliance;
@@ -22,6 +21,7 @@ mod fourier;
 mod friction;
 mod harmonic_system;
 mod iterate;
+mod law_evaluation;
 mod linear_leg;
 mod modal_basis;
 mod model;
