@@ -30,16 +30,11 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, DiagnosisError> {
-    diagnose_telling(problem, control, &|_| {})
+    diagnose_without(problem, &[], control, &|_| {})
 }
 
-/// [`diagnose`], with the first suggestions told to `early` while the search goes on.
-pub fn diagnose_telling(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
-    diagnose_without(problem, &[], control, early)
-}
-
-/// [`diagnose_telling`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what
-/// else it could be. Their parameters do not matter.
+/// [`diagnose`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what else it
+/// could be. Their parameters do not matter. The first suggestions are told to `early` while the search goes on.
 pub fn diagnose_without(
     problem: &Problem,
     excluded: &[Source],
