@@ -43,7 +43,7 @@ pub(super) fn beside_updating(
     let bare = reference.bare()?;
     // Before candidates are refined, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
-    let (mut here, first) = match first_fits((&reference, before), &bare, &corrected.0)? {
+    let (mut here, first) = match first_candidates((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -124,7 +124,7 @@ enum First<'a> {
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is refined but what one change explains instead of them.
-fn first_fits<'a>(
+fn first_candidates<'a>(
     (reference, before): (&ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     likely: &ReferenceModel<'a>,
@@ -165,9 +165,9 @@ fn rival<'a>(
     let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
     let near = bare.misfit() < RIVALLED * scale || doubtful;
     if near {
-        (likely, least) = alone((likely, least), bare, weighed)?;
+        (likely, least) = corrections_alone((likely, least), bare, weighed)?;
     }
-    if is_hollow(&likely, best, stated)? {
+    if overfits(&likely, best, stated)? {
         return Ok(((likely, f64::INFINITY), false));
     }
     Ok(((likely, least), near))
@@ -175,7 +175,7 @@ fn rival<'a>(
 
 /// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another local minimum than
 /// those beside the effect. Springs and masses are moved into the parts that they act on as well.
-fn alone<'a>(
+fn corrections_alone<'a>(
     (likely, least): (ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     weighed: &Weighed<'a>,
@@ -194,10 +194,10 @@ fn alone<'a>(
     Ok(best)
 }
 
-/// Whether the corrections of `likely` alone are no rival of the effects of `best`: they predict the tests worse than the model as it
-/// was stated, with the relative error `stated`, which the effects at least halve. They then lower the squared residual only by
-/// what is free from run to run, and by scaling stiffness, mass and force together.
-fn is_hollow(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
+/// Whether the corrections of `likely` alone overfit, and are no rival of the effects of `best`: they predict the tests worse than the
+/// model as it was stated, with the relative error `stated`, which the effects at least halve. They then lower the squared residual only
+/// by what is free from run to run, and by scaling stiffness, mass and force together.
+fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
     Ok(best.error < HALVED * stated && likely.error_of_structure(&[], &Vec::new())? > stated)
 }
 
