@@ -20,13 +20,6 @@ pub const PHASE_SENSITIVE: f64 = 0.1;
 /// Probability with which noise alone shows harmonics that pass for a signal.
 const DEAD_BY_CHANCE: f64 = 1e-3;
 
-/// Everything that is wrong with a record and its fit. `frequency_hz` is the frequency that the user gave, if any.
-pub fn assess(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> Vec<Finding> {
-    let mut findings = assess_record(record, fit, frequency_hz);
-    findings.extend(assess_harmonics(fit));
-    findings
-}
-
 /// What takes the record to see; the fit is that of the record as it is, known errors not corrected.
 pub(super) fn assess_record(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> Vec<Finding> {
     let slip = frequency_hz.and_then(|given| slips::wrong_frequency(record, fit, given));

@@ -175,11 +175,6 @@ impl Run {
         self
     }
 
-    /// Circular frequency, rad/s.
-    pub fn omega(&self) -> f64 {
-        self.fit.omega
-    }
-
     /// Frequency, Hz.
     pub fn frequency_hz(&self) -> f64 {
         self.fit.omega / TAU
@@ -188,26 +183,6 @@ impl Run {
     /// Numbers of the channels that measure motion.
     pub fn response_channels(&self) -> Vec<usize> {
         self.fit.response_channels()
-    }
-
-    /// Numbers of the channels that measure forces.
-    pub fn force_channels(&self) -> Vec<usize> {
-        self.fit.force_channels()
-    }
-
-    /// Displacements of every channel that measures motion; several at one DOF are all there.
-    pub fn displacements(&self) -> Vec<Amplitudes> {
-        self.response_channels().into_iter().map(|c| self.fit.displacement_of(c)).collect()
-    }
-
-    /// Displacement at a DOF, several channels combined by their variances; `None` where nothing measures it.
-    pub fn displacement(&self, dof: usize) -> Option<Amplitudes> {
-        self.fit.displacement(dof)
-    }
-
-    /// Force of the exciter at a DOF; `None` where there is no force channel.
-    pub fn force(&self, dof: usize) -> Option<Amplitudes> {
-        self.fit.force(dof)
     }
 }
 
