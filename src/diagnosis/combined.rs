@@ -102,19 +102,12 @@ mod tests {
             indistinguishable_from: Vec::new(),
         };
         let first = list.iter().map(|(effect, dof, _)| added(*effect, *dof)).take(1).collect();
+        let step = Step { added: first, error: 0.1, misfit: 1.0 };
         Diagnosis {
             error_before: 0.5,
-            noise_floor: 0.01,
             verdict: if list.is_empty() { Verdict::Adequate } else { Verdict::Undecided },
             suggestions: list.iter().map(suggestion).collect(),
-            steps: vec![Step { added: first, error: 0.1, misfit: 1.0 }],
-            next_test: Vec::new(),
-            corrections: Vec::new(),
-            channel_faults: Vec::new(),
-            records: None,
-            test_errors: None,
-            complete: true,
-            runs: Vec::new(),
+            ..Diagnosis::adequate(step, 0.01)
         }
     }
 

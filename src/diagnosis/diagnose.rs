@@ -119,22 +119,9 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
 
 /// Explains what the reference model leaves; or a channel that is not to be relied on.
 fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
-    let estimator = reference.estimator();
-    let before = sum_of_squares(&estimator.residual(&reference.predictions));
-    let diagnosis = Diagnosis {
-        error_before: estimator.error(&reference.predictions),
-        noise_floor: reference.noise_floor(&[], &reference.predictions),
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![reference.agreement()],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    };
+    let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
+    let noise_floor = reference.noise_floor(&[], &reference.predictions);
+    let diagnosis = Diagnosis::adequate(reference.agreement(), noise_floor);
     if found::agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));
     }
