@@ -83,7 +83,7 @@ fn a_roving_hammer_gives_columns_by_reciprocity() {
     let roving = roving.replace("\"acc@7 [m/s^2]\", \"acc@11 [m/s^2]\", \"acc@15 [m/s^2]\", ", "");
     let folder = hammered("0.01", &roving);
     let project = opened(folder.path(), "averages = 8\nreciprocity = true\n", "").unwrap();
-    assert!(project.runs.iter().all(|run| run.force_channels().len() == 1 && run.response_channels().len() == 4));
+    assert!(project.runs.iter().all(|run| run.fit.force_channels().len() == 1 && run.response_channels().len() == 4));
     right(&found(&project, &identified(&project)));
 }
 

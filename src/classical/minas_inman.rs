@@ -5,14 +5,13 @@
 //! ```
 //!
 //! by least squares, each mode scaled to unit length. **Needs** mass, stiffness and complex modes at all DOFs (or matrices
-//! reduced to the DOFs measured, [`reduced`]). **Limits**: with fewer modes than DOFs the rows do not fix all entries and
+//! reduced to the DOFs measured). **Limits**: with fewer modes than DOFs the rows do not fix all entries and
 //! the shortest solution is taken; errors of `M` and `K` all end in `C`; a reduced model is stiffer than the structure.
 
 use super::data::{Damping, ModalData};
 use super::error::ClassicalError;
 use super::linear::{column, packed, times, unpacked};
-use crate::math::fill::filled;
-use crate::math::least_squares::{LeastSquares, solve_symmetric};
+use crate::math::least_squares::LeastSquares;
 use faer::{Mat, MatRef};
 
 /// Most DOFs: above, the unknowns are too many for a dense solution.
@@ -53,21 +52,4 @@ pub fn minas_inman(m: MatRef<'_, f64>, k: MatRef<'_, f64>, modes: &ModalData) ->
         damping.notes.push(note);
     }
     Ok(damping)
-}
-
-/// Mass and stiffness condensed to the DOFs `kept` by the static shapes (Guyan): `T^T M T`, `T^T K T`.
-///
-/// # Errors
-/// Those of the linear algebra, when the DOFs left out can move freely.
-pub fn reduced(m: MatRef<'_, f64>, k: MatRef<'_, f64>, kept: &[usize]) -> Result<(Mat<f64>, Mat<f64>), ClassicalError> {
-    let n = m.nrows();
-    let others: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
-    let inner = filled(others.len(), others.len(), |i, j| k[(others[i], others[j])]);
-    let side = filled(others.len(), kept.len(), |i, j| -k[(others[i], kept[j])]);
-    let static_shapes = if others.is_empty() { side } else { solve_symmetric(inner.as_ref(), side.as_ref())? };
-    let t = filled(n, kept.len(), |i, j| match kept.iter().position(|&row| row == i) {
-        Some(at) => f64::from(u8::from(at == j)),
-        None => others.iter().position(|&row| row == i).map_or(0.0, |row| static_shapes[(row, j)]),
-    });
-    Ok((t.transpose() * m * &t, t.transpose() * k * &t))
 }

@@ -4,7 +4,7 @@ use super::arguments::Contents as Arguments;
 use crate::exchange::importing::files::listed;
 use crate::exchange::mapping::stepped;
 use anyhow::ensure;
-use dashpot_datafiles::{Channel, DataFile, Number, Set, open};
+use dashpot_datafiles::{Channel, DataFile, Note, Number, Set, open};
 use serde_json::{Map, Value, json};
 
 /// Most channels of a set in a listing for people.
@@ -42,7 +42,7 @@ fn entry(file: &DataFile) -> Value {
         "file": file.path().display().to_string(),
         "format": contents.format.word(),
         "sets": contents.sets.iter().map(set).collect::<Vec<_>>(),
-        "notes": contents.notes,
+        "notes": texts(&contents.notes),
         "looks_like": looks_like(file),
     })
 }
@@ -58,8 +58,12 @@ fn set(set: &Set) -> Value {
         "kind": set.kind.word(),
         "axis_unit": set.axis_unit,
         "channels": set.channels.iter().map(channel).collect::<Vec<_>>(),
-        "notes": set.notes,
+        "notes": texts(&set.notes),
     })
+}
+
+fn texts(notes: &[Note]) -> Vec<&str> {
+    notes.iter().map(|note| note.text.as_str()).collect()
 }
 
 fn channel(channel: &Channel) -> Value {

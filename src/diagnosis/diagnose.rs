@@ -2,11 +2,11 @@
 
 use crate::control::Control;
 use crate::diagnosis::channels::{self, ChannelFault};
-use crate::diagnosis::on_all_runs;
+use crate::diagnosis::errors_on_all_runs;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::levels::sessions;
 use crate::diagnosis::residual::prediction::Predictor;
-use crate::diagnosis::residual::telling_runs::telling;
+use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::{found, stepwise};
@@ -30,16 +30,11 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn diagnose(problem: &Problem, control: &Control) -> Result<Diagnosis, DiagnosisError> {
-    diagnose_telling(problem, control, &|_| {})
+    diagnose_without(problem, &[], control, &|_| {})
 }
 
-/// [`diagnose`], with the first suggestions told to `early` while the search goes on.
-pub fn diagnose_telling(problem: &Problem, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
-    diagnose_without(problem, &[], control, early)
-}
-
-/// [`diagnose_telling`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what
-/// else it could be. Their parameters do not matter.
+/// [`diagnose`] where the effects `excluded`, each at its place, are known not to be what is missing: it finds what else it
+/// could be. Their parameters do not matter. The first suggestions are told to `early` while the search goes on.
 pub fn diagnose_without(
     problem: &Problem,
     excluded: &[Source],
@@ -62,10 +57,10 @@ fn searched(
     }
     let data = Data::new(problem)?;
     let all = Data { excluded: excluded.to_vec(), sessions: sessions(problem, &data), ..data };
-    let Some(data) = telling(&all) else { return on_runs(problem, &all, control, early) };
+    let Some(data) = informative_runs(&all) else { return on_runs(problem, &all, control, early) };
     let diagnosis = on_runs(problem, &data, control, early)?;
     let runs = data.runs.iter().map(|run| run.index).collect();
-    Ok(Diagnosis { runs, ..on_all_runs::told(problem, &all, diagnosis, control)? })
+    Ok(Diagnosis { runs, ..errors_on_all_runs::with_errors(problem, &all, diagnosis, control)? })
 }
 
 /// Reversed, exchanged and misread channels alone, by the steady runs of `problem`, and how the model agrees with what they read.
@@ -77,7 +72,7 @@ pub(crate) fn faults_of_channels(
     control: &Control,
 ) -> Result<(Vec<ChannelFault>, Step), DiagnosisError> {
     let all = Data::new(problem)?;
-    let data = telling(&all).unwrap_or(all);
+    let data = informative_runs(&all).unwrap_or(all);
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
     Ok((channels::find(&predictor, &data, &reference.predictions), reference.agreement()))
@@ -124,22 +119,9 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
 
 /// Explains what the reference model leaves; or a channel that is not to be relied on.
 fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
-    let estimator = reference.estimator();
-    let before = sum_of_squares(&estimator.residual(&reference.predictions));
-    let diagnosis = Diagnosis {
-        error_before: estimator.error(&reference.predictions),
-        noise_floor: reference.noise_floor(&[], &reference.predictions),
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![reference.agreement()],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    };
+    let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
+    let noise_floor = reference.noise_floor(&[], &reference.predictions);
+    let diagnosis = Diagnosis::adequate(reference.agreement(), noise_floor);
     if found::agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));
     }

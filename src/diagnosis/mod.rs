@@ -15,17 +15,17 @@
 
 pub mod candidates;
 pub mod channels;
+pub(crate) mod combined;
 pub mod compare;
 pub mod component;
 pub mod diagnose;
+mod errors_on_all_runs;
 pub(crate) mod localisation;
-mod on_all_runs;
 pub(crate) mod points;
 pub mod records;
 pub mod residual;
 pub mod result;
 pub(crate) mod selection;
-pub(crate) mod together;
 pub mod updating;
 
 pub use compare::{Comparison, compare};

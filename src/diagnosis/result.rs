@@ -163,6 +163,24 @@ pub struct TestErrors {
 }
 
 impl Diagnosis {
+    /// The answer where the model as it is agrees with the data, as the step `stated` says, from which every search begins.
+    pub fn adequate(stated: Step, noise_floor: f64) -> Self {
+        Self {
+            error_before: stated.error,
+            noise_floor,
+            verdict: Verdict::Adequate,
+            suggestions: Vec::new(),
+            steps: vec![stated],
+            records: None,
+            test_errors: None,
+            next_test: Vec::new(),
+            corrections: Vec::new(),
+            channel_faults: Vec::new(),
+            complete: true,
+            runs: Vec::new(),
+        }
+    }
+
     /// What is added with `source`: the whole set that its error was promised with, else it alone.
     pub fn added_with(&self, source: &Source) -> Vec<Source> {
         match self.steps.last().filter(|_| self.is_promised_with_its_set(source)) {
@@ -215,19 +233,11 @@ mod tests {
             evidence: Vec::new(),
             indistinguishable_from: Vec::new(),
         };
+        let step = || Step { added: vec![added(0), added(1)], error: 0.03, misfit: 1.0 };
         let diagnosis = |own: f64| Diagnosis {
-            error_before: 1.0,
-            noise_floor: 0.01,
             verdict: Verdict::Missing,
             suggestions: vec![suggestion(0, own), suggestion(1, own), suggestion(2, 0.4)],
-            steps: vec![Step { added: vec![added(0), added(1)], error: 0.03, misfit: 1.0 }],
-            records: None,
-            test_errors: None,
-            next_test: Vec::new(),
-            corrections: Vec::new(),
-            channel_faults: Vec::new(),
-            complete: true,
-            runs: Vec::new(),
+            ..Diagnosis::adequate(step(), 0.01)
         };
         assert_eq!(diagnosis(0.03).added_with(&sources[0]), sources[..2]);
         assert_eq!(diagnosis(0.2).added_with(&sources[0]), sources[..1]);

@@ -47,17 +47,6 @@ impl Parameter {
     }
 }
 
-/// The variable `theta` behind a parameter `p` in fits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Scaling {
-    /// `p = exp(theta)`: positive parameters.
-    Logarithmic,
-    /// `p = low + (high - low) / (1 + exp(-theta))`: parameters between two limits.
-    Between(f64, f64),
-    /// `p` in proportion to `theta`: parameters of any sign.
-    Linear,
-}
-
 impl Parameter {
     /// A parameter to which the force is proportional, from 0 upwards.
     pub const fn coefficient(name: &'static str, unit: &'static str, symbol: &'static str) -> Self {
@@ -87,17 +76,6 @@ impl Parameter {
     pub const fn above(self, least: f64) -> Self {
         let greatest = self.greatest;
         self.within(least, greatest, Ends::OpenBelow)
-    }
-
-    /// The variable in which the parameter is fitted, so that steps of order one are sensible whatever the unit.
-    pub fn scaling(&self) -> Scaling {
-        if self.least.is_finite() && self.greatest.is_finite() {
-            Scaling::Between(self.least, self.greatest)
-        } else if self.least >= 0.0 {
-            Scaling::Logarithmic
-        } else {
-            Scaling::Linear
-        }
     }
 
     /// Whether `value` is finite and within the limits.

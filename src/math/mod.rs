@@ -11,3 +11,4 @@ pub(crate) mod numerals;
 pub(crate) mod spectrum;
 pub(crate) mod statistics;
 pub mod subsets;
+pub(crate) mod zero_phase;

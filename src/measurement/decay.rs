@@ -33,14 +33,14 @@ pub(super) fn free_decay(record: &Record, fit: &HarmonicFit) -> Option<Finding> 
     let falling = sizes.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let (first, last) = (sizes[0], sizes[sizes.len() - 1]);
     let decays = last < FALLEN * first && falling as f64 >= FALLING * (sizes.len() - 1) as f64;
-    decays.then(|| Finding {
-        flag: Flag::NotPeriodic,
-        reason: format!(
+    decays.then(|| Finding::of_record(
+        Flag::NotPeriodic,
+        format!(
             "{} is a free decay, no steady sine: it falls to {:.0} % of its amplitude without a force; use records under a steady force here",
             fit.channels[channel].channel,
             100.0 * last / first
         ),
-    })
+    ))
 }
 
 /// The finding that the harmonics hold the smaller part of what is recorded: in a force, or in most responses.
@@ -52,13 +52,13 @@ pub(super) fn not_periodic(fit: &HarmonicFit) -> Option<Finding> {
     let force = fit.force_channels().into_iter().find(|&c| ratio(c) > NOT_PERIODIC);
     let response = responses.iter().copied().max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)));
     let channel = force.or_else(|| response.filter(|_| median(&ratios) > NOT_PERIODIC))?;
-    Some(Finding {
-        flag: Flag::NotPeriodic,
-        reason: format!(
+    Some(Finding::of_record(
+        Flag::NotPeriodic,
+        format!(
             "{} is no sine of {:.6} Hz: what does not repeat with its period is {:.0} % of what does (noise, or sines of other frequencies)",
             fit.channels[channel].channel,
             fit.omega / std::f64::consts::TAU,
             (100.0 * ratio(channel)).min(99_999.0)
         ),
-    })
+    ))
 }

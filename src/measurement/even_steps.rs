@@ -45,7 +45,7 @@ pub(super) fn evened(record: &Record) -> Option<(Arc<Record>, Finding)> {
     let reason = said([shortest, longest, step], &record.channels()[worst], apart(worst));
     let mut mended = record.clone();
     (mended.time, mended.samples) = (even, six);
-    Some((Arc::new(mended), Finding { flag: Flag::UnevenSteps, reason }))
+    Some((Arc::new(mended), Finding::of_record(Flag::UnevenSteps, reason)))
 }
 
 fn said([shortest, longest, step]: [f64; 3], channel: &Channel, apart: f64) -> String {

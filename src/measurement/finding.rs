@@ -1,5 +1,6 @@
 //! What can be wrong with a record, and why.
 
+use super::channel::Channel;
 use serde::{Deserialize, Serialize};
 
 /// What can be wrong with a record.
@@ -72,10 +73,24 @@ impl Flag {
 }
 
 /// A flag with its reason in words and numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// What is wrong.
     pub flag: Flag,
+    /// The channel that is at fault; `None` where it is the record or the motion.
+    pub channel: Option<Channel>,
     /// Why, in one sentence with numbers and units.
     pub reason: String,
+}
+
+impl Finding {
+    /// A finding about the record or the motion as a whole.
+    pub fn of_record(flag: Flag, reason: String) -> Self {
+        Self { flag, channel: None, reason }
+    }
+
+    /// A finding about one channel.
+    pub fn of_channel(flag: Flag, channel: &Channel, reason: String) -> Self {
+        Self { flag, channel: Some(channel.clone()), reason }
+    }
 }

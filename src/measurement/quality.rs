@@ -20,13 +20,6 @@ pub const PHASE_SENSITIVE: f64 = 0.1;
 /// Probability with which noise alone shows harmonics that pass for a signal.
 const DEAD_BY_CHANCE: f64 = 1e-3;
 
-/// Everything that is wrong with a record and its fit. `frequency_hz` is the frequency that the user gave, if any.
-pub fn assess(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> Vec<Finding> {
-    let mut findings = assess_record(record, fit, frequency_hz);
-    findings.extend(assess_harmonics(fit));
-    findings
-}
-
 /// What takes the record to see; the fit is that of the record as it is, known errors not corrected.
 pub(super) fn assess_record(record: &Record, fit: &HarmonicFit, frequency_hz: Option<f64>) -> Vec<Finding> {
     let slip = frequency_hz.and_then(|given| slips::wrong_frequency(record, fit, given));
@@ -56,15 +49,15 @@ fn noisy(fit: &HarmonicFit) -> Option<Finding> {
     let ratios = fit.channels.iter().zip(references(fit)).filter(|(channel, _)| dead(channel).is_none());
     let (channel, ratio) =
         ratios.map(|(channel, reference)| (channel, channel.noise / reference)).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (ratio > NOISY).then(|| Finding {
-        flag: Flag::Noisy,
-        reason: format!("the noise of {} is {:.0} % of its signal", channel.channel, 100.0 * ratio),
+    (ratio > NOISY).then(|| {
+        let reason = format!("the noise of {} is {:.0} % of its signal", channel.channel, 100.0 * ratio);
+        Finding::of_channel(Flag::Noisy, &channel.channel, reason)
     })
 }
 
 /// A channel that shows nothing, or nothing that noise alone would not.
 fn dead(channel: &ChannelFit) -> Option<Finding> {
-    let finding = |reason: String| Some(Finding { flag: Flag::DeadChannel, reason });
+    let finding = |reason: String| Some(Finding::of_channel(Flag::DeadChannel, &channel.channel, reason));
     if channel.amplitudes.iter().all(|y| y.re == 0.0 && y.im == 0.0) {
         return finding(format!("{} does not move at all", channel.channel));
     }
@@ -108,11 +101,11 @@ pub fn phase_sensitivity(fit: &HarmonicFit) -> Option<f64> {
 
 fn phase_sensitive(fit: &HarmonicFit) -> Option<Finding> {
     let sensitivity = phase_sensitivity(fit)?;
-    (sensitivity > PHASE_SENSITIVE).then(|| Finding {
-        flag: Flag::PhaseSensitive,
-        reason: format!(
+    (sensitivity > PHASE_SENSITIVE).then(|| {
+        let reason = format!(
             "one degree of phase error at the drive point changes the energy by {:.0} %",
             (100.0 * sensitivity).min(9999.0)
-        ),
+        );
+        Finding::of_record(Flag::PhaseSensitive, reason)
     })
 }

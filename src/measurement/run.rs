@@ -143,9 +143,10 @@ impl Run {
 
     fn why_without_force(&self) -> Option<&Finding> {
         let forces = self.fit.force_channels();
-        let first = &self.fit.channels[*forces.first()?].channel.to_string();
+        let first = &self.fit.channels[*forces.first()?].channel;
         let silent = forces.iter().all(|&c| dead::is_silent(&self.fit.channels[c], self.record.as_deref()));
-        let of_force = |finding: &&Finding| finding.flag == Flag::DeadChannel && finding.reason.starts_with(first);
+        let of_force =
+            |finding: &&Finding| finding.flag == Flag::DeadChannel && finding.channel.as_ref() == Some(first);
         self.findings.iter().find(of_force).filter(|_| silent)
     }
 
@@ -158,14 +159,13 @@ impl Run {
             !matches!(channel.channel.quantity, Quantity::Force | Quantity::Base)
                 && dead::stands_still(channel, record.as_deref())
         };
-        let dead: Vec<String> =
-            self.fit.channels.iter().filter(|c| is_dead(c)).map(|c| c.channel.to_string()).collect();
+        let dead: Vec<Channel> = self.fit.channels.iter().filter(|c| is_dead(c)).map(|c| c.channel.clone()).collect();
         if self.insisted || dead.is_empty() || dead.len() >= self.response_channels().len() {
             return self;
         }
         self.fit.channels.retain(|channel| !is_dead(channel));
         for finding in self.findings.iter_mut().filter(|finding| finding.flag == Flag::DeadChannel) {
-            if let Some(channel) = dead.iter().find(|channel| finding.reason.starts_with(&format!("{channel} "))) {
+            if let Some(channel) = finding.channel.as_ref().filter(|channel| dead.contains(channel)) {
                 finding.reason = format!(
                     "{channel} does not move at all: the channel is left out (`use = true` at the run keeps it)"
                 );
@@ -173,11 +173,6 @@ impl Run {
         }
         self.noise_ratio = noise_ratio(&self.fit);
         self
-    }
-
-    /// Circular frequency, rad/s.
-    pub fn omega(&self) -> f64 {
-        self.fit.omega
     }
 
     /// Frequency, Hz.
@@ -188,26 +183,6 @@ impl Run {
     /// Numbers of the channels that measure motion.
     pub fn response_channels(&self) -> Vec<usize> {
         self.fit.response_channels()
-    }
-
-    /// Numbers of the channels that measure forces.
-    pub fn force_channels(&self) -> Vec<usize> {
-        self.fit.force_channels()
-    }
-
-    /// Displacements of every channel that measures motion; several at one DOF are all there.
-    pub fn displacements(&self) -> Vec<Amplitudes> {
-        self.response_channels().into_iter().map(|c| self.fit.displacement_of(c)).collect()
-    }
-
-    /// Displacement at a DOF, several channels combined by their variances; `None` where nothing measures it.
-    pub fn displacement(&self, dof: usize) -> Option<Amplitudes> {
-        self.fit.displacement(dof)
-    }
-
-    /// Force of the exciter at a DOF; `None` where there is no force channel.
-    pub fn force(&self, dof: usize) -> Option<Amplitudes> {
-        self.fit.force(dof)
     }
 }
 

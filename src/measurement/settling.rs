@@ -58,7 +58,7 @@ struct Drift {
 /// The finding that a transient has not died out, for the channel that shows it most.
 pub(super) fn not_settled(record: &Record, fit: &HarmonicFit) -> Option<Finding> {
     if let Some(ramps) = super::ramps::find(record, fit) {
-        return Some(Finding { flag: Flag::NotSettled, reason: ramps.reason(fit) });
+        return Some(Finding::of_record(Flag::NotSettled, ramps.reason(fit)));
     }
     let name = |c: usize| fit.channels[c].channel.to_string();
     let drifts =
@@ -80,7 +80,7 @@ pub(super) fn not_settled(record: &Record, fit: &HarmonicFit) -> Option<Finding>
 }
 
 fn finding(what: String) -> Finding {
-    Finding { flag: Flag::NotSettled, reason: format!("{what}: a transient is still there, record later") }
+    Finding::of_record(Flag::NotSettled, format!("{what}: a transient is still there, record later"))
 }
 
 /// Ranges of samples of the first and the last of `parts` parts of the record, whole periods that begin at one phase.

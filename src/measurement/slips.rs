@@ -31,14 +31,14 @@ pub(super) fn wrong_frequency(record: &Record, fit: &HarmonicFit, given_hz: f64)
     let reason = slip(record, fit, given_hz, &lead)
         .or_else(|| other(record, fit, given_hz, &lead))
         .or_else(|| multiple(fit, given_hz));
-    reason.map(|reason| Finding { flag: Flag::WrongFrequency, reason })
+    reason.map(|reason| Finding::of_record(Flag::WrongFrequency, reason))
 }
 
 /// A small error of the frequency: the phase slips over the record.
 fn slip(record: &Record, fit: &HarmonicFit, given_hz: f64, lead: &[usize]) -> Option<String> {
     let Frequency { omega, deviation } = refine(record, fit.omega, fit.harmonics(), lead).ok()?;
     let slip = (omega - fit.omega).abs() * record.duration();
-    // Beyond a line of the spectrum the refinement may have run into a neighbouring valley.
+    // Beyond a line of the spectrum the refinement may have run into a neighbouring local minimum.
     if !(SLIP..=TAU).contains(&slip) || slip < SLIP_DEVIATIONS * deviation * record.duration() {
         return None;
     }

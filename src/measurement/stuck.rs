@@ -75,12 +75,12 @@ fn clipped_channel(record: &Record, fit: &HarmonicFit, c: usize) -> Option<Findi
             }
         }
     }
-    (total >= FEWEST_CLIPPED).then(|| Finding {
-        flag: Flag::Clipped,
-        reason: format!(
-            "{total} samples of {} stand at the end of its range, up to {longest} in a row at {limit:.4e} (SI units)",
-            fit.channels[c].channel
-        ),
+    (total >= FEWEST_CLIPPED).then(|| {
+        let channel = &fit.channels[c].channel;
+        let reason = format!(
+            "{total} samples of {channel} stand at the end of its range, up to {longest} in a row at {limit:.4e} (SI units)"
+        );
+        Finding::of_channel(Flag::Clipped, channel, reason)
     })
 }
 
@@ -102,7 +102,7 @@ fn plateaus(samples: &[f64], end: f64) -> Vec<(usize, usize)> {
 pub(super) fn missing_samples(record: &Record, fit: &HarmonicFit) -> Option<Finding> {
     let reasons: Vec<String> =
         [gaps(record), repeated_times(record), repeated_rows(record, fit)].into_iter().flatten().collect();
-    (!reasons.is_empty()).then(|| Finding { flag: Flag::MissingSamples, reason: reasons.join("; ") })
+    (!reasons.is_empty()).then(|| Finding::of_record(Flag::MissingSamples, reasons.join("; ")))
 }
 
 fn gaps(record: &Record) -> Option<String> {

@@ -83,7 +83,7 @@ fn release_of(label: &TransientLabel, record: &Record) -> Option<f64> {
 fn released(start_s: f64) -> Finding {
     let reason =
         format!("the record begins before the release; it is used from {start_s:.4} s on, `start_s` says otherwise");
-    Finding { flag: Flag::BeforeRelease, reason }
+    Finding::of_record(Flag::BeforeRelease, reason)
 }
 
 /// The record where the part `samples` is in even steps, else taken onto even ones, which is said.
@@ -139,7 +139,7 @@ fn windowed(run: &TransientRun, constant: f64) -> Finding {
         1.0 / constant,
         (last / constant).exp()
     );
-    Finding { flag: Flag::ExponentialWindow, reason }
+    Finding::of_record(Flag::ExponentialWindow, reason)
 }
 
 /// `y(n + shift)` between the samples; beyond the ends the last polynomial goes on for no more than the shift.

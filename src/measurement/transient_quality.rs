@@ -37,10 +37,6 @@ pub(super) fn assess(run: &TransientRun) -> Vec<Finding> {
     findings
 }
 
-fn finding(flag: Flag, reason: String) -> Finding {
-    Finding { flag, reason }
-}
-
 /// The whole record looks like a run of another kind.
 fn other_kind(run: &TransientRun) -> Option<Finding> {
     if !run.part.is_whole() {
@@ -48,7 +44,10 @@ fn other_kind(run: &TransientRun) -> Option<Finding> {
     }
     let proposal = propose(&run.record);
     (proposal.kind != run.kind).then(|| {
-        finding(Flag::OtherKind, format!("it looks like kind \"{}\": {}", proposal.kind.name(), proposal.reason))
+        Finding::of_record(
+            Flag::OtherKind,
+            format!("it looks like kind \"{}\": {}", proposal.kind.name(), proposal.reason),
+        )
     })
 }
 
@@ -65,7 +64,7 @@ fn hammer(run: &TransientRun) -> Vec<Finding> {
         let channel = &run.channels()[c];
         if contacts[0].0 < 8.max(run.len() / 500) {
             let reason = format!("{channel} acts from the start; record a quiet part before the hit (pre-trigger)");
-            findings.push(finding(Flag::NoPreTrigger, reason));
+            findings.push(Finding::of_record(Flag::NoPreTrigger, reason));
         }
         if contacts.len() > 1 {
             let reason = format!(
@@ -74,7 +73,7 @@ fn hammer(run: &TransientRun) -> Vec<Finding> {
                 time(contacts[0].0),
                 time(contacts[1].0)
             );
-            findings.push(finding(Flag::DoubleHit, reason));
+            findings.push(Finding::of_record(Flag::DoubleHit, reason));
         }
     }
     findings
@@ -89,8 +88,9 @@ fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
     let blow = run.channels()[c].quantity == Quantity::Force && longest > 1 && is_blow(samples);
     (longest >= CLIPPED || (blow && has_flat_top(samples, most))).then(|| {
         let channel = &run.channels()[c];
-        finding(
+        Finding::of_channel(
             Flag::Clipped,
+            channel,
             format!("{longest} samples of {channel} in a row stand at {most:.4e} (SI units), the end of its range"),
         )
     })
@@ -129,7 +129,7 @@ fn cut_decay(run: &TransientRun) -> Option<Finding> {
     (worst > CUT && goes_on).then(|| {
         let reason =
             format!("the part ends at {:.0} % of the largest motion and the record goes on; move end_s", 100.0 * worst);
-        finding(Flag::CutDecay, reason)
+        Finding::of_record(Flag::CutDecay, reason)
     })
 }
 
@@ -140,12 +140,12 @@ fn out_of_band(run: &TransientRun, c: usize) -> Option<Finding> {
     let total: f64 = (1..spectrum.amplitude.len()).map(power).sum();
     let above: f64 = (1..spectrum.amplitude.len()).filter(|&k| spectrum.frequency_hz(k) > limit).map(power).sum();
     (total > 0.0 && above > OUT_OF_BAND * total).then(|| {
+        let channel = &run.channels()[c];
         let reason = format!(
-            "{:.0} % of the power of {} lies above {limit:.4} Hz, where filters and sensors are no longer true; sample faster",
+            "{:.0} % of the power of {channel} lies above {limit:.4} Hz, where filters and sensors are no longer true; sample faster",
             100.0 * above / total,
-            run.channels()[c]
         );
-        finding(Flag::OutOfBand, reason)
+        Finding::of_channel(Flag::OutOfBand, channel, reason)
     })
 }
 
@@ -171,7 +171,7 @@ fn too_short(run: &TransientRun) -> Option<Finding> {
             spectrum.frequency_hz(second),
             run.len() as f64 * run.step() * 4.0 * CLOSE / apart
         );
-        finding(Flag::TooShort, reason)
+        Finding::of_record(Flag::TooShort, reason)
     })
 }
 
@@ -191,6 +191,6 @@ fn drift(run: &TransientRun, c: usize) -> Option<Finding> {
             "the mean of {channel} wanders by {:.0} % of its root mean square; its integrals drift and are kept above the lowest mode only",
             100.0 * spread / size
         );
-        finding(Flag::Drift, reason)
+        Finding::of_channel(Flag::Drift, channel, reason)
     })
 }

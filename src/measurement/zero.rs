@@ -70,7 +70,7 @@ fn told(run: &TransientRun, c: usize) -> Option<Finding> {
         "{channel} stands off zero by {:.0} % of its root mean square: taken as the zero of its sensor",
         100.0 * share
     );
-    (share > TOLD).then_some(Finding { flag: Flag::Offset, reason })
+    (share > TOLD).then(|| Finding::of_channel(Flag::Offset, channel, reason))
 }
 
 #[cfg(test)]

@@ -156,7 +156,7 @@ fn at_order(
     let balance = prepared.balance();
     let state = balance.state(u, 1.0);
     let turning = || SensitivityError::TurningPoint { frequency_hz: excitation.omega / TAU };
-    let lu = Lu::new(u.len(), balance.jacobian(&state.answers)).ok_or_else(turning)?;
+    let lu = Lu::new(u.len(), balance.jacobian(&state.evaluations)).ok_or_else(turning)?;
     let motion = prepared.condensed.motion(u, 1.0);
     let displacements = prepared.displacements(run, excitation, u);
     let observed = observations(&prepared.condensed, run, dofs);
@@ -165,7 +165,7 @@ fn at_order(
         let loads = at.loads(unknown);
         let mut motion = at.linear_motion(&observed, &loads);
         at.add_softening(unknown, &mut motion);
-        let mut change = at.balance.answer_change(&state.answers, &motion);
+        let mut change = at.balance.force_change(&state.evaluations, &motion);
         at.add_parameter(unknown, &mut change);
         lu.solve(&mut change);
         let forces = |h: usize, j: usize| at.prepared.condensed.get(&change, h, j);

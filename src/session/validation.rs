@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::diagnosis::candidates::restoring_force::{self, RestoringForce};
 use crate::diagnosis::channels::mending::{mended_in_time, mended_run};
 use crate::diagnosis::channels::{ChannelFault, find_in_time};
+use crate::diagnosis::combined::combined;
 use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
 use crate::diagnosis::diagnose::{diagnose_without, faults_of_channels};
 use crate::diagnosis::records::compare::OneRecord;
@@ -13,7 +14,6 @@ use crate::diagnosis::records::{
 };
 use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
 use crate::diagnosis::result::{Early, RecordErrors, Step};
-use crate::diagnosis::together::together;
 use crate::diagnosis::{Comparison, Diagnosis, DiagnosisError, Problem};
 use crate::effects::Source;
 use crate::exchange::Project;
@@ -160,7 +160,7 @@ fn diagnosed_as_read(project: &Project, control: &Control, early: &Early<'_>) ->
     let by_runs = steady(&control.piece(0, 2))?;
     let by_records = diagnosed_from_records(project, &control.piece(1, 2), &|_| {})?;
     let told = by_records.clone();
-    let joint = together(by_runs, by_records);
+    let joint = combined(by_runs, by_records);
     let records = Some(errors_of_records(project, &joint, &told, control)?);
     Ok(Diagnosis { records, ..joint })
 }

@@ -70,7 +70,7 @@ fn runs_that_have_not_settled_keep_their_place_and_count_for_nothing() {
     let mut project = hidden(&[Effect::Viscous], kindness(false), &mut Random::new(7)).unwrap();
     let control = Control::unattended();
     let all = compare(&project.problem(), &[], &control).unwrap();
-    project.runs[4].findings.push(Finding { flag: Flag::NotSettled, reason: "a transient".to_string() });
+    project.runs[4].findings.push(Finding::of_record(Flag::NotSettled, "a transient".to_string()));
     let some = compare(&project.problem(), &[], &control).unwrap();
     assert_eq!(some.runs.len(), all.runs.len());
     assert!(!some.runs[4].used && some.runs[4].error == all.runs[4].error);

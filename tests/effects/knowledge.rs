@@ -2,7 +2,6 @@
 //! what solvers are told of friction and of infinite slopes.
 
 use super::{cases, rich, sampled};
-use dashpot::effects::parameter::Scaling;
 use dashpot::effects::{Constant, Effect, Manner, Motion, Part, Place, Range, Source};
 use faer::c64;
 
@@ -143,10 +142,6 @@ fn start_grids_lie_within_the_limits() {
             assert!(effect.parameters().iter().zip(&p).all(|(q, &v)| q.allows(v)), "{effect} {p:?}");
         }
     }
-    let scaling =
-        |effect: Effect| effect.parameters().iter().map(dashpot::effects::Parameter::scaling).collect::<Vec<_>>();
-    assert_eq!(scaling(Effect::Power), [Scaling::Logarithmic, Scaling::Between(0.0, 5.0)]);
-    assert_eq!(scaling(Effect::Stiffness), [Scaling::Linear]);
 }
 
 /// Friction holds its own force, and a stuck joint agrees with every bound above its force.

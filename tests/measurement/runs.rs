@@ -40,8 +40,8 @@ fn close(found: &[c64], expected: &[c64]) -> bool {
 fn every_quantity_becomes_the_same_displacement() {
     for quantity in [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration] {
         let run = run(&[motion(quantity, 3, 0.0, 0.0, 1.0)], &[]);
-        assert!(close(&run.displacement(3).unwrap().amplitudes, &displacement()), "{quantity:?}");
-        assert!(run.displacement(2).is_none() && run.force(3).is_none());
+        assert!(close(&run.fit.displacement(3).unwrap().amplitudes, &displacement()), "{quantity:?}");
+        assert!(run.fit.displacement(2).is_none() && run.fit.force(3).is_none());
     }
 }
 
@@ -52,8 +52,8 @@ fn known_errors_are_taken_out_with_their_effect_on_the_deviation() {
     let correction = ChannelCorrection { channel, delay: 1e-3, gain: 1.1 };
     let wrong = run(&signals, &[]);
     let right = run(&signals, std::slice::from_ref(&correction));
-    assert!(!close(&wrong.displacement(3).unwrap().amplitudes, &displacement()));
-    assert!(close(&right.displacement(3).unwrap().amplitudes, &displacement()));
+    assert!(!close(&wrong.fit.displacement(3).unwrap().amplitudes, &displacement()));
+    assert!(close(&right.fit.displacement(3).unwrap().amplitudes, &displacement()));
     let ratio = wrong.fit.channels[0].deviation(2) / right.fit.channels[0].deviation(2);
     assert!((ratio - 1.1).abs() < 1e-9);
 }
@@ -62,9 +62,9 @@ fn known_errors_are_taken_out_with_their_effect_on_the_deviation() {
 fn two_sensors_at_one_dof_are_weighted_by_their_noise() {
     let signals = [motion(Quantity::Displacement, 3, 1e-4, 0.0, 1.0), motion(Quantity::Velocity, 3, 1e-4, 0.0, 1.0)];
     let run = run(&signals, &[]);
-    assert_eq!(run.displacements().len(), 2);
+    assert_eq!(run.response_channels().len(), 2);
     let [first, second] = [0, 1].map(|c| run.fit.displacement_of(c));
-    let both = run.displacement(3).unwrap();
+    let both = run.fit.displacement(3).unwrap();
     let variance = |a: &dashpot::measurement::Amplitudes| a.covariance[(0, 0)] + a.covariance[(1, 1)];
     let expected = 1.0 / (1.0 / variance(&first) + 1.0 / variance(&second));
     assert!((variance(&both) / expected - 1.0).abs() < 1e-9);
@@ -87,7 +87,7 @@ fn deviations_of_displacements_are_those_found_by_many_records() {
         let signals = [motion(Quantity::Acceleration, 0, 0.2, 0.0, 1.0)];
         let record = Arc::new(record(&signals, FREQUENCY_HZ, even(400, 1000.0), seed));
         let run = Run::from_record(String::new(), None, true, record, Some(FREQUENCY_HZ), 2, &[]).unwrap();
-        let found = run.displacement(0).unwrap();
+        let found = run.fit.displacement(0).unwrap();
         squares += (found.amplitudes[0].re - displacement()[0].re).powi(2) / found.covariance[(0, 0)] / seeds as f64;
     }
     assert!((squares.sqrt() - 1.0).abs() < 0.13, "{}", squares.sqrt());

@@ -250,20 +250,7 @@ fn the_missing_force_of_a_decay_is_that_of_its_law() {
     let project = Project::new(short_cantilever(4), std::slice::from_ref(&hidden));
     let added = Added { source: hidden.clone(), deviations: vec![0.0] };
     let step = Step { added: vec![added], error: 0.0, misfit: 1.0 };
-    let diagnosis = Diagnosis {
-        error_before: 1.0,
-        noise_floor: 0.0,
-        verdict: Verdict::Missing,
-        suggestions: Vec::new(),
-        steps: vec![step],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    };
+    let diagnosis = Diagnosis { error_before: 1.0, verdict: Verdict::Missing, ..Diagnosis::adequate(step, 0.0) };
     let drawn = missing_force(&project.records(), &diagnosis, Some(&hidden), &Control::unattended()).unwrap();
     let drawn = drawn.expect("the force stands out");
     assert!(drawn.runs.len() >= 2, "large and small motion");

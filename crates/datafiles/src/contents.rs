@@ -1,5 +1,6 @@
 //! What is in a file, as a tree that is cheap to make: sets, and channels with their units, steps and first values.
 
+use crate::note::Note;
 use uff::Values;
 
 /// Most values of a channel that its entry shows.
@@ -165,7 +166,7 @@ pub struct Set {
     /// Its channels.
     pub channels: Vec<Channel>,
     /// What the user should know: what was skipped and why, what was assumed.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Set {
@@ -182,7 +183,7 @@ pub struct Contents {
     /// Sets in the order of the file.
     pub sets: Vec<Set>,
     /// What holds for the whole file.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Contents {

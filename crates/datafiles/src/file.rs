@@ -91,8 +91,9 @@ fn tell_apart(contents: &mut Contents) {
             }
             if number > 1 {
                 let again = format!("{} ({number})", channel.name);
-                set.notes
-                    .push(format!("\"{}\" stands twice in the file: the second is called \"{again}\"", channel.name));
+                set.notes.push(
+                    format!("\"{}\" stands twice in the file: the second is called \"{again}\"", channel.name).into(),
+                );
                 seen.insert(again.clone(), 1);
                 channel.name = again;
             }

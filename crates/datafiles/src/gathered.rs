@@ -259,7 +259,7 @@ fn gather(sets: &mut Vec<Set>, places: &mut Vec<Vec<Place>>, own: &[usize], (nam
             }
         }
     }
-    notes.insert(0, format!("{} sets of one channel each, of the same times, are one record", own.len()));
+    notes.insert(0, format!("{} sets of one channel each, of the same times, are one record", own.len()).into());
     notes.truncate(MOST_NOTES);
     let set = &mut sets[into];
     (set.name, set.channels, set.notes) = (name, channels, notes);

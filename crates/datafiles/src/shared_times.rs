@@ -48,7 +48,7 @@ pub(crate) fn beside(mut contents: Contents, source: Box<dyn Source>) -> Read<(C
             (unit, _) => unit.to_owned(),
         };
         set.channels.iter_mut().for_each(|channel| channel.axis = Axis::Stored { step });
-        set.notes.insert(0, format!("its times are \"{}\" of {name}", channel.name));
+        set.notes.insert(0, format!("its times are \"{}\" of {name}", channel.name).into());
     }
     let used: Vec<usize> = times.iter().flatten().map(|(t, _)| *t).collect();
     let kept: Vec<usize> = (0..contents.sets.len()).filter(|t| !used.contains(t)).collect();

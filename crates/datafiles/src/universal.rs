@@ -50,7 +50,7 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     let mut file = uff::File::open(path).map_err(wrong)?;
     let mut contents = Contents::new(Format::Uff);
     let entries = file.sets().to_vec();
-    contents.notes.extend(file.warnings().iter().take(MOST_WARNINGS).map(ToString::to_string));
+    contents.notes.extend(file.warnings().iter().take(MOST_WARNINGS).map(|warning| warning.to_string().into()));
     let mut previewed = 0;
     let units = entries.iter().find_map(|entry| match &entry.summary {
         Summary::Units(units) => Some(units.clone()),
@@ -71,11 +71,11 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
         let reading = (previewed <= MOST_PREVIEWED).then(|| file.read(i));
         match reading {
             Some(Ok(reading)) => fill(&mut set, &reading),
-            Some(Err(error)) => set.notes.push(format!("cannot be read: {error}")),
-            None => set.notes.push("its first values are not shown: the file is large".to_owned()),
+            Some(Err(error)) => set.notes.push(format!("cannot be read: {error}").into()),
+            None => set.notes.push("its first values are not shown: the file is large".into()),
         }
         if let Summary::Unknown = entry.summary {
-            set.notes.push(format!("data set {} is not read", entry.number));
+            set.notes.push(format!("data set {} is not read", entry.number).into());
         }
         set.notes.truncate(MOST_WARNINGS);
         contents.sets.push(set);
@@ -192,7 +192,7 @@ fn name(header: &FunctionHeader) -> String {
 
 /// First values, shapes and geometry out of the set itself.
 fn fill(set: &mut Set, reading: &Reading) {
-    set.notes.extend(reading.warnings.iter().take(MOST_WARNINGS).map(ToString::to_string));
+    set.notes.extend(reading.warnings.iter().take(MOST_WARNINGS).map(|warning| warning.to_string().into()));
     match &reading.set {
         uff::Set::Function(function) => {
             if let Some(channel) = set.channels.first_mut() {
@@ -243,16 +243,21 @@ fn fill(set: &mut Set, reading: &Reading) {
         uff::Set::Model(model) => {
             set.name.push_str(" header");
             let texts = [&model.name, &model.description, &model.program];
-            set.notes.extend(texts.into_iter().filter(|text| !text.trim().is_empty()).map(|text| one_line(text, 160)));
+            set.notes.extend(
+                texts.into_iter().filter(|text| !text.trim().is_empty()).map(|text| one_line(text, 160).into()),
+            );
         }
         uff::Set::Units(units) => {
             set.name.push_str(" units");
-            set.notes.push(format!(
-                "{}; lengths divided by {} are m, forces divided by {} are N",
-                units.description.trim(),
-                units.length,
-                units.force
-            ));
+            set.notes.push(
+                format!(
+                    "{}; lengths divided by {} are m, forces divided by {} are N",
+                    units.description.trim(),
+                    units.length,
+                    units.force
+                )
+                .into(),
+            );
         }
         _ => {}
     }
@@ -261,7 +266,7 @@ fn fill(set: &mut Set, reading: &Reading) {
 fn geometry(set: &mut Set, what: &str, count: usize) {
     set.kind = Kind::Geometry;
     set.name = format!("{} {what}", set.name);
-    set.notes.push(format!("{count} {what}"));
+    set.notes.push(format!("{count} {what}").into());
 }
 
 fn shape_channels(

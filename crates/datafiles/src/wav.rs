@@ -36,7 +36,8 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
     }
     if spec.sample_format == SampleFormat::Int {
         let bits = spec.bits_per_sample;
-        set.notes.push(format!("{bits} bit integers are divided by 2^{}: 1 is full scale", bits.saturating_sub(1)));
+        set.notes
+            .push(format!("{bits} bit integers are divided by 2^{}: 1 is full scale", bits.saturating_sub(1)).into());
     }
     let mut contents = Contents::new(Format::Wav);
     contents.sets.push(set);

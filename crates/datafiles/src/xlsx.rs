@@ -24,7 +24,7 @@ pub(crate) fn open(reader: impl Bytes + Seek) -> Read<(Contents, Box<dyn Source>
         let mut cells = match book.worksheet_cells_reader(&name) {
             Ok(cells) => cells,
             Err(calamine::XlsxError::NotAWorksheet(what)) => {
-                contents.notes.push(format!("sheet \"{name}\" is a {what} and was passed over"));
+                contents.notes.push(format!("sheet \"{name}\" is a {what} and was passed over").into());
                 continue;
             }
             Err(error) => return Err(within(wrong(error))),
@@ -36,7 +36,7 @@ pub(crate) fn open(reader: impl Bytes + Seek) -> Read<(Contents, Box<dyn Source>
         }
         let (blocks, _) = rows.finish().map_err(within)?;
         if blocks.is_empty() {
-            contents.notes.push(format!("sheet \"{name}\" has no row of numbers and was passed over"));
+            contents.notes.push(format!("sheet \"{name}\" has no row of numbers and was passed over").into());
         }
         let (sets, columns) = finish(&name, blocks);
         contents.sets.extend(sets);

@@ -128,7 +128,11 @@ fn what_is_not_read_is_said() {
     let notes = |name: &str| {
         let file = open(&corpus().join(name)).unwrap();
         let sets = file.contents().sets.iter();
-        sets.flat_map(|set| set.notes.clone()).chain(file.contents().notes.clone()).collect::<Vec<_>>().join("\n")
+        sets.flat_map(|set| set.notes.clone())
+            .chain(file.contents().notes.clone())
+            .map(|note| note.text)
+            .collect::<Vec<_>>()
+            .join("\n")
     };
     assert!(notes("cells.mat").contains("\"s\" is not read: it is sparse"), "{}", notes("cells.mat"));
     // Single numbers among texts are words; so many that they are measured are refused.

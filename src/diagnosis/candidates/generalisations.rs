@@ -1,5 +1,5 @@
 //! Where a law explains much but not all: the laws that contain it, or one of its limits, fitted anew at its place. Their
-//! own fits may have ended in a valley of the wrong side while the model was still far off.
+//! own fits may have ended in another local minimum while the model was still far off.
 
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
@@ -16,7 +16,7 @@ impl ReferenceModel<'_> {
     /// The set `best` with each of its effects in turn replaced by laws that it may have been taken for, from their best
     /// shapes against the free force that the rest of `best` leaves at the place, and from where they do the same force; of these laws,
     /// those that are `wanted`.
-    pub(crate) fn wider(
+    pub(crate) fn generalisations(
         &self,
         best: &FittedModel,
         wanted: impl Fn(Effect) -> bool,

@@ -32,14 +32,15 @@ const ENOUGH: f64 = 3.0;
 /// best once its parameters are fitted.
 const PROMISING: f64 = 10.0;
 /// Gain of the misfit, in units of what is left per datum, below which a regression has arrived: it orders candidates that are
-/// followed if within dozens of such units, and is where their fit on the response starts.
+/// refined if within dozens of such units, and is where their fit on the response starts.
 const ENOUGH_FOR_A_START: f64 = 1.0;
 /// How many times what the best shape of a law leaves another may leave that a fit starts from too.
-const VALLEYS: f64 = 1.3;
+const NEAR_BEST: f64 = 1.3;
 /// Step of a variable for difference quotients: friction has kinks, and the step is to see past those of single samples.
 const STEP: f64 = 1e-3;
 
 /// The free forces of one place and the motions they imply.
+#[derive(Clone)]
 pub(crate) struct PlaceData {
     pub(super) spot: Spot,
     /// `[run][harmonic]`.
@@ -157,8 +158,8 @@ impl PlaceData {
         if promising.is_empty() {
             return fits;
         }
-        let thinned = self.thinned();
-        let on = thinned.as_ref().unwrap_or(self);
+        let subsample = self.subsample();
+        let on = subsample.as_ref().unwrap_or(self);
         let bound = bound * on.count() as f64 / self.count().max(1) as f64;
         let fit = |effect| on.fit_within(effect, bound, on).map(|fit| self.on_all_runs(fit));
         fits.extend(promising.into_iter().filter_map(fit));
@@ -167,8 +168,8 @@ impl PlaceData {
 
     /// Fits every effect of no more than two parameters that can act here.
     pub(crate) fn simple_fits(&self) -> Vec<LawFit> {
-        let thinned = self.thinned();
-        let grid = thinned.as_ref().unwrap_or(self);
+        let subsample = self.subsample();
+        let grid = subsample.as_ref().unwrap_or(self);
         let simple = Effect::ALL.into_iter().filter(|effect| is_simple(*effect));
         simple.filter_map(|effect| self.fit_within(effect, f64::INFINITY, grid)).collect()
     }
@@ -231,9 +232,9 @@ impl PlaceData {
         let source =
             |p: &[f64]| Source { effect, place: self.spot.place(), state: State::Known, parameters: p.to_vec() };
         let (misfit, _) = grid.first()?;
-        // Laws of many parameters have many valleys.
+        // Laws of many parameters have many local minima.
         let starts = if effect.parameters().len() > 2 { 3 } else { 1 };
-        let close = |(left, _): &&(f64, Vec<f64>)| *left < VALLEYS * misfit;
+        let close = |(left, _): &&(f64, Vec<f64>)| *left < NEAR_BEST * misfit;
         let descent = |(_, p): &(f64, Vec<f64>)| {
             let (variables, start) = Variables::new(&[source(p)]);
             let Ok(Descent { theta, chi_square, .. }) = descend(

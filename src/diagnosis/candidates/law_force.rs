@@ -14,7 +14,7 @@ const AT_REST: f64 = 1e-6;
 /// Bounds of the gain of a channel: beyond a wrong range or sensitivity it is no channel of this motion.
 pub(crate) const GAINS: [f64; 2] = [0.05, 20.0];
 /// Delays that are tried: up to half the longest period, beyond which a channel is as well early; in steps of half a radian at the
-/// highest frequency, within the valley of half a turn from which Newton's method arrives; no more than so many either way.
+/// highest frequency, within the basin of attraction, half a turn, from which Newton's method arrives; no more than so many either way.
 const OF_LONGEST_PERIOD: f64 = 0.5;
 const COARSE_PHASE: f64 = 0.5;
 const MOST_DELAYS: f64 = 500.0;
@@ -102,7 +102,7 @@ impl PlaceData {
     }
 
     /// The delay, to a fraction of the shortest period, that leaves least of the free errors of this channel at the fundamentals: a
-    /// delay of a period or more has many valleys.
+    /// delay of a period or more has many local minima.
     fn coarse_delay(&self, law: &dyn ChannelLaw) -> f64 {
         let omegas = || self.motions.iter().map(|motion| motion.omega);
         let (slowest, fastest) = (omegas().fold(f64::INFINITY, f64::min), omegas().fold(0.0, f64::max));

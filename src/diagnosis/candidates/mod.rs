@@ -3,6 +3,7 @@
 mod eliminator;
 pub(crate) mod fingerprint;
 pub(crate) mod fingerprint_plot;
+mod force_matching;
 pub(crate) mod friction;
 pub(crate) mod generalisations;
 pub(crate) mod identified_force;
@@ -10,5 +11,5 @@ pub(crate) mod law_force;
 pub mod restoring_force;
 pub(crate) mod special_cases;
 pub(crate) mod start;
-mod thinning;
+mod subsample;
 pub(crate) mod two_laws;

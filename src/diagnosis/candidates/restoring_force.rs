@@ -164,7 +164,7 @@ fn corrected(problem: &Problem, corrections: &[Correction], data: &Data) -> Resu
 }
 
 fn drawn(data: &PlaceData, place: &Place, law: Option<&Source>, all: &Data, levels: &Levels) -> Option<RestoringForce> {
-    let mut chosen = telling(data, levels);
+    let mut chosen = informative_runs(data, levels);
     chosen.sort_by_key(|&r| (levels.numbers[r], r));
     let runs: Vec<RunForce> = chosen.iter().map(|&r| run_force(data, law, &all.runs[r], r, levels)).collect();
     (!runs.is_empty()).then(|| RestoringForce { place: place.clone(), law: law.cloned(), runs })
@@ -221,7 +221,7 @@ fn deviation(forces: &[FreeForce]) -> f64 {
 
 /// The runs that tell most: of every level the one whose motion is largest; beside these, where there is room, others whose
 /// motion is far from theirs.
-fn telling(data: &PlaceData, levels: &Levels) -> Vec<usize> {
+fn informative_runs(data: &PlaceData, levels: &Levels) -> Vec<usize> {
     let amplitude = |r: usize| data.motions[r].harmonics.first().map_or(0.0, |d| d.norm());
     let clear = |r: &usize| {
         let Some(first) = data.forces[*r].first() else { return false };

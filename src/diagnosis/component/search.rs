@@ -48,20 +48,8 @@ pub fn diagnose_component(
     let before = error(loops, &[], &search.all)?;
     let floor = noise_floor(loops, &[])?;
     let misfit = |error: f64| (error / floor.max(f64::MIN_POSITIVE)).powi(2);
-    let mut diagnosis = Diagnosis {
-        error_before: before,
-        noise_floor: floor,
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(before) }],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    };
+    let stated = Step { added: Vec::new(), error: before, misfit: misfit(before) };
+    let mut diagnosis = Diagnosis::adequate(stated, floor);
     if before < AGREES * floor {
         return Ok(diagnosis);
     }

@@ -74,20 +74,7 @@ fn as_stated(balance: &Balance) -> Diagnosis {
     };
     let (before, misfit) =
         (relative(&balance.missing), sum_of_squares(&balance.weighted()) / balance.missing.len() as f64);
-    Diagnosis {
-        error_before: before,
-        noise_floor: relative(&balance.deviation),
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: before, misfit }],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    }
+    Diagnosis::adequate(Step { added: Vec::new(), error: before, misfit }, relative(&balance.deviation))
 }
 
 /// The verdict where no effect has the evidence.

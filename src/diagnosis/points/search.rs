@@ -164,7 +164,7 @@ fn climb(
 }
 
 /// Score beyond which sets are not fitted where the best has the score `best`: their shapes are those of a grid.
-fn hopeless(best: f64) -> f64 {
+fn score_bound(best: f64) -> f64 {
     HOPELESS * best.abs() + 60.0
 }
 
@@ -209,9 +209,9 @@ fn unfitted(columns: &[Column], e: &[f64], count: usize) -> Vec<Vec<Source>> {
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let hopeless = hopeless(found.first().map_or(f64::INFINITY, |best| best.0));
+    let bound = score_bound(found.first().map_or(f64::INFINITY, |best| best.0));
     let mut sets: Vec<Vec<Source>> = Vec::new();
-    for (_, set, scales) in found.into_iter().take_while(|(score, ..)| *score < hopeless) {
+    for (_, set, scales) in found.into_iter().take_while(|(score, ..)| *score < bound) {
         let sources: Vec<Source> = set.iter().zip(&scales).map(|(&k, &s)| grown(&columns[k].source, s)).collect();
         let seen = |other: &Vec<Source>| other.iter().zip(&sources).all(|(a, b)| a.is_same(b));
         if !sets.iter().any(seen) {

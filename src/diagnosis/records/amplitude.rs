@@ -11,6 +11,8 @@
 
 use crate::math::least_squares::LeastSquares;
 use crate::math::spectrum::Spectrum;
+use crate::math::statistics::mean;
+use crate::math::zero_phase::{Extension, filtered};
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -131,23 +133,13 @@ pub fn line(points: &[[f64; 3]]) -> Option<Line> {
 
 /// Keeps the lines about a frequency, with smooth edges.
 fn band_pass(signal: &[f64], step: f64, band: Band) -> Vec<f64> {
-    let n = signal.len();
-    let transform = dashpot_numerics::RealTransform::new(n);
-    let mean = signal.iter().sum::<f64>() / n as f64;
-    let mut work: Vec<f64> = signal.iter().map(|y| y - mean).collect();
-    let mut lines = transform.forward(&mut work);
-    let last = lines.len() - 1;
-    for (k, line) in lines.iter_mut().enumerate() {
-        let f = k as f64 / (n as f64 * step);
-        let off = (f / band.frequency_hz - 1.0).abs() / band.width;
-        let pass = if off < 0.5 { 1.0 } else { 0.5 + 0.5 * (std::f64::consts::PI * (2.0 * off - 1.0).min(1.0)).cos() };
-        *line *= pass / n as f64;
-        if k == 0 || (k == last && n.is_multiple_of(2)) {
-            line.im = 0.0;
-        }
-    }
-    transform.backward(&mut lines, &mut work);
-    work
+    let mean = mean(signal);
+    let about_mean: Vec<f64> = signal.iter().map(|y| y - mean).collect();
+    let gain = |hz: f64| {
+        let off = (hz / band.frequency_hz - 1.0).abs() / band.width;
+        if off < 0.5 { 1.0 } else { 0.5 + 0.5 * (std::f64::consts::PI * (2.0 * off - 1.0).min(1.0)).cos() }
+    };
+    filtered(&about_mean, step, Extension::Periodic, gain)
 }
 
 /// One window.

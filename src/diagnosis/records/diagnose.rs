@@ -16,7 +16,7 @@ use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
 use super::telling::{last_deviations, suggestions};
 use crate::control::Control;
-use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
+use crate::diagnosis::result::{Diagnosis, Early, Step};
 use crate::effects::Source;
 use crate::measurement::TransientRun;
 
@@ -66,20 +66,8 @@ pub fn diagnose_records(
     let weighted = records.weighted(&bare.residual);
     let search = Search::new(&weighted, records, (excluded, records.structure, &[]), control);
     let bare = search.quiet(search.levels.len() - 1, &bare)?;
-    let mut diagnosis = Diagnosis {
-        error_before: before,
-        noise_floor,
-        verdict: Verdict::Adequate,
-        suggestions: Vec::new(),
-        steps: vec![Step { added: Vec::new(), error: before, misfit: misfit(&bare) }],
-        next_test: Vec::new(),
-        corrections: Vec::new(),
-        channel_faults: Vec::new(),
-        records: None,
-        test_errors: None,
-        complete: true,
-        runs: Vec::new(),
-    };
+    let stated = Step { added: Vec::new(), error: before, misfit: misfit(&bare) };
+    let mut diagnosis = Diagnosis::adequate(stated, noise_floor);
     if misfit(&bare) < weighted.agreement(AGREES) {
         return Ok(diagnosis);
     }

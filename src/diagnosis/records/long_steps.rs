@@ -7,8 +7,8 @@
 use super::compare::struck;
 use super::data::RecordData;
 use super::weights::local;
+use crate::math::zero_phase::{Extension, filtered};
 use crate::response::transient::StepLength;
-use dashpot_numerics::RealTransform;
 use std::f64::consts::TAU;
 
 /// Phase of the fastest motion that is resolved, rad, that a long step covers: a third of what short ones cover of the highest motion
@@ -67,18 +67,8 @@ impl RecordData {
 
 /// The velocity above a frequency that a signal shows, which is displacement differentiated `order` times.
 fn velocity(signal: &[f64], step: f64, order: i32, from_hz: f64) -> Vec<f64> {
-    let n = signal.len();
-    let mut work: Vec<f64> = signal.iter().chain(signal.iter().rev()).copied().collect();
-    let transform = RealTransform::new(2 * n);
-    let mut lines = transform.forward(&mut work);
-    let last = lines.len() - 1;
-    for (k, line) in lines.iter_mut().enumerate() {
-        let hz = k as f64 / (2.0 * n as f64 * step);
-        *line *= if hz > from_hz && k < last { (TAU * hz).powi(1 - order) * 0.5 / n as f64 } else { 0.0 };
-    }
-    transform.backward(&mut lines, &mut work);
-    work.truncate(n);
-    work
+    let gain = |hz: f64| if hz > from_hz { (TAU * hz).powi(1 - order) } else { 0.0 };
+    filtered(signal, step, Extension::Even, gain)
 }
 
 /// Variance of that velocity of white noise of variance 1.

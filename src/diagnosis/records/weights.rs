@@ -10,7 +10,7 @@
 //! `a_n` is the root mean square of the motion near sample `n`: no model has its modes' shapes, no sensor its gain, better than
 //! to about a hundredth.
 
-use dashpot_numerics::RealTransform;
+use crate::math::zero_phase::{Extension, filtered};
 
 /// Share of the band up to Nyquist's frequency above the corner below which nothing can be said.
 const LEAST_BAND: f64 = 0.05;
@@ -59,46 +59,15 @@ pub(super) fn deviations(signal: &[f64], noise: f64, step: f64, corner_hz: f64) 
     (0..n).map(deviation_at_sample).collect()
 }
 
-/// The part of a signal above the corner. Beside the line through its ends it is continued by its negative, as a string beyond its
-/// supports, so that neither values nor slopes jump: the motion below the corner, a hundred times as large, leaves next to nothing there.
+/// The part of a signal above the corner. It is extended oddly, so that neither values nor slopes jump: the motion below the corner,
+/// a hundred times as large, leaves next to nothing there.
 fn above_corner(signal: &[f64], step: f64, corner_hz: f64) -> Vec<f64> {
-    let last = signal.len() - 1;
-    let slope = (signal[last] - signal[0]) / last as f64;
-    let beside_line = |k: usize| signal[k] - signal[0] - slope * k as f64;
-    let mut work: Vec<f64> = (0..last).map(beside_line).chain((1..=last).rev().map(|k| -beside_line(k))).collect();
-    let length = work.len();
-    let transform = RealTransform::new(length);
-    let mut lines = transform.forward(&mut work);
-    for (k, line) in lines.iter_mut().enumerate() {
-        let is_above = k as f64 / (length as f64 * step) > corner_hz;
-        *line *= if is_above { 1.0 / length as f64 } else { 0.0 };
-    }
-    for end in [0, last] {
-        lines[end].im = 0.0;
-    }
-    transform.backward(&mut lines, &mut work);
-    work.truncate(last + 1);
-    work
+    filtered(signal, step, Extension::Odd, |hz| if hz > corner_hz { 1.0 } else { 0.0 })
 }
 
-/// The part of a signal between two frequencies; it is continued as in a mirror, so that its ends do not jump.
+/// The part of a signal between two frequencies; it is extended evenly, so that its ends do not jump.
 pub(super) fn in_band(signal: &[f64], step: f64, [low_hz, high_hz]: [f64; 2]) -> Vec<f64> {
-    let n = signal.len();
-    let mut work: Vec<f64> = signal.iter().chain(signal.iter().rev()).copied().collect();
-    let transform = RealTransform::new(2 * n);
-    let mut lines = transform.forward(&mut work);
-    let last = lines.len() - 1;
-    for (k, line) in lines.iter_mut().enumerate() {
-        let frequency_hz = k as f64 / (2.0 * n as f64 * step);
-        let kept = frequency_hz > low_hz && frequency_hz <= high_hz;
-        *line *= if kept { 0.5 / n as f64 } else { 0.0 };
-        if k == 0 || k == last {
-            line.im = 0.0;
-        }
-    }
-    transform.backward(&mut lines, &mut work);
-    work.truncate(n);
-    work
+    filtered(signal, step, Extension::Even, |hz| if hz > low_hz && hz <= high_hz { 1.0 } else { 0.0 })
 }
 
 #[cfg(test)]

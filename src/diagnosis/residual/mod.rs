@@ -8,7 +8,7 @@ pub(crate) mod energy_balance;
 pub(crate) mod levels;
 pub mod prediction;
 pub(crate) mod run_nuisance;
-pub(crate) mod telling_runs;
+pub(crate) mod run_selection;
 pub(crate) mod transfers;
 pub mod whiteness;
 pub(crate) mod whitening;

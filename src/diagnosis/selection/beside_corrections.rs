@@ -2,16 +2,13 @@
 
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
-use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_open};
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
+use crate::diagnosis::selection::cross_validation::{exceeds, groups};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{
-    DOUBTFUL, EVIDENCE, FittedSets, Found, MOST_EFFECTS, agrees, distinct, nearly,
-};
-use crate::diagnosis::selection::left_out::{exceeds, groups};
+use crate::diagnosis::selection::found::{DOUBTFUL, Found, MOST_EFFECTS, agrees};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
-use crate::diagnosis::selection::updated::REFITTED;
-use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
+use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::{Kind, Source};
 
@@ -20,7 +17,7 @@ const CHOSEN: f64 = 16.0;
 /// The same of one spring or mass in place of many corrections: having been chosen among some sixty places, each the likelier by
 /// none of the corrections being larger than models are wrong by.
 const CHANGED: f64 = 6.0;
-/// What it must promise to be followed.
+/// What it must promise to be refined.
 const PROMISED: f64 = 4.0;
 /// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
 /// correction itself.
@@ -28,8 +25,6 @@ const FURTHER: f64 = 100.0;
 /// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
 /// rival.
 const RIVALLED: f64 = 4.0;
-/// Times that a model is settled beside the effects that are left when another is taken away.
-const UPDATES: usize = 6;
 /// How many times the error of the effects before it, as `compare` shows it, a further effect may leave: errors that the runs have of their
 /// own scatter by that.
 const RAISED: f64 = 1.1;
@@ -46,9 +41,9 @@ pub(super) fn beside_updating(
     let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
     let stated = reference.estimator().error(&reference.predictions);
     let bare = reference.bare()?;
-    // Before candidates are followed, which takes long: what differs from run to run may be more than tests usually differ by.
+    // Before candidates are refined, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
-    let (mut here, first) = match first_fits((&reference, before), &bare, &corrected.0)? {
+    let (mut here, first) = match first_candidates((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -64,7 +59,7 @@ pub(super) fn beside_updating(
         let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());
         let fits = match (&from, first.take()) {
             (None, Some(fits)) => fits,
-            (Some(from), _) => here.followed_beside(from, FURTHER)?,
+            (Some(from), _) => here.refined_beside(from, FURTHER)?,
             (None, None) => Vec::new(),
         };
         if found.by_size.is_empty() {
@@ -75,10 +70,10 @@ pub(super) fn beside_updating(
             break;
         }
         if let Some(from) = &from
-            && let Some(better) = in_another_valley(&fits, from, least)?
+            && let Some(better) = without_addition(&fits, from, least)?
         {
             found.by_size.pop();
-            (likely, least) = taken(&mut found, better);
+            (likely, least) = better.taken_into(&mut found);
             here = likely.with_scales(likely.linearisation.updating.scales);
             continue;
         }
@@ -93,16 +88,15 @@ pub(super) fn beside_updating(
         if from.is_none() {
             ((likely, least), told_alone) = rival((likely, least), &bare, &weighed, stated)?;
         }
-        // What only lowers the error because every run has a stiffness of its own is nothing that could be added.
-        let raises = best.error > from.as_ref().map_or(stated, |from| RAISED * from.error);
+        let raises = raises_error(best.error, from.as_ref().map(|from| from.error), stated);
         let known = best.parameters < weighed.reference.count();
-        if raises || !known || (least - weighed.least) / scale < evidence_needed(best, by_modes) {
+        if raises || !known || (least - weighed.least) / scale < evidence_needed(&best.effects, by_modes) {
             break;
         }
         if (told_alone || from.is_some()) && !predicts_better(&weighed, (&likely, from.as_ref()))? {
             break;
         }
-        (likely, least) = taken(&mut found, weighed);
+        (likely, least) = weighed.taken_into(&mut found);
         here =
             ReferenceModel { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
         // Corrections beyond what models are wrong by may stand in for one effect more.
@@ -118,36 +112,6 @@ pub(super) fn beside_updating(
     Ok(Ok(Outcome { reference: likely, found }))
 }
 
-/// Makes a weighed set what was found last; its model and its evidence.
-fn taken<'a>(found: &mut Found, weighed: Weighed<'a>) -> (ReferenceModel<'a>, f64) {
-    let Weighed { reference, fits, probabilities, least } = weighed;
-    found.agrees = agrees(&reference, fits[0].chi_square, fits[0].parameters);
-    let scale = scale_of(&fits, reference.count());
-    found.by_size.push(FittedSets { scale, noise: reference.noise.clone(), fits, probabilities });
-    (reference, least)
-}
-
-/// The effects of `from`, whose evidence is `least`, in the model of the best of the candidates for one effect more, where they have
-/// their evidence there without it: what it brought was another valley of the same effects, such as other branches of a resonance.
-fn in_another_valley<'a>(
-    candidates: &[(ReferenceModel<'a>, FittedModel)],
-    from: &FittedModel,
-    least: f64,
-) -> Result<Option<Weighed<'a>>, DiagnosisError> {
-    let evidence = |(reference, fit): &(ReferenceModel, FittedModel)| cost(reference, Some(fit));
-    let best = candidates.iter().min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
-    let Some((reference, fit)) = best else { return Ok(None) };
-    let is_known = |effect: &&Source| from.effects.iter().any(|known| known.is_same(effect));
-    let same: Vec<Source> = fit.effects.iter().filter(is_known).cloned().collect();
-    let own = reference.with_scales(reference.linearisation.updating.scales);
-    let begun = own.estimator().fit(&same, REFITTED, &SEARCH, &fit.starts)?;
-    if same.len() < from.effects.len() || cost(&own, Some(&begun)) > least - EVIDENCE {
-        return Ok(None);
-    }
-    let better = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])?;
-    Ok(better.filter(|better| better.fits[0].effects.len() == same.len() && better.least < least - EVIDENCE))
-}
-
 /// What a search beside corrections begins with.
 enum First<'a> {
     /// The model from which candidates were seen, and these fitted.
@@ -159,8 +123,8 @@ enum First<'a> {
 }
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
-/// evidence beside them, none is followed but what one change explains instead of them.
-fn first_fits<'a>(
+/// evidence beside them, none is refined but what one change explains instead of them.
+fn first_candidates<'a>(
     (reference, before): (&ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     likely: &ReferenceModel<'a>,
@@ -179,12 +143,12 @@ fn first_fits<'a>(
             Ok(localised) => localised,
             Err(fault) => return Ok(First::Unreliable(fault)),
         };
-        fits = localised.followed(unfitted)?;
-        fits.extend(reference.followed_whole(before)?);
+        fits = localised.refined(unfitted)?;
+        fits.extend(reference.refined_whole(before)?);
         here = localised;
     }
-    let follow = |k: usize| bare.followed_change(&changes[k]);
-    fits.extend(bare.control.map(changes.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?);
+    let refine = |k: usize| bare.refined_change(&changes[k]);
+    fits.extend(bare.control.map(changes.len(), refine).into_iter().collect::<Result<Vec<_>, _>>()?);
     Ok(First::Fits(here, fits))
 }
 
@@ -201,17 +165,17 @@ fn rival<'a>(
     let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
     let near = bare.misfit() < RIVALLED * scale || doubtful;
     if near {
-        (likely, least) = alone((likely, least), bare, weighed)?;
+        (likely, least) = corrections_alone((likely, least), bare, weighed)?;
     }
-    if is_hollow(&likely, best, stated)? {
+    if overfits(&likely, best, stated)? {
         return Ok(((likely, f64::INFINITY), false));
     }
     Ok(((likely, least), near))
 }
 
-/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another valley than
+/// The model with corrections alone, as likely as they make it, and its evidence: they may have ended in another local minimum than
 /// those beside the effect. Springs and masses are moved into the parts that they act on as well.
-fn alone<'a>(
+fn corrections_alone<'a>(
     (likely, least): (ReferenceModel<'a>, f64),
     bare: &ReferenceModel<'a>,
     weighed: &Weighed<'a>,
@@ -230,10 +194,10 @@ fn alone<'a>(
     Ok(best)
 }
 
-/// Whether the corrections of `likely` alone are no rival of the effects of `best`: they predict the tests worse than the model as it
-/// was stated, with the relative error `stated`, which the effects at least halve. They then lower the squared residual only by
-/// what is free from run to run, and by scaling stiffness, mass and force together.
-fn is_hollow(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
+/// Whether the corrections of `likely` alone overfit, and are no rival of the effects of `best`: they predict the tests worse than the
+/// model as it was stated, with the relative error `stated`, which the effects at least halve. They then lower the squared residual only
+/// by what is free from run to run, and by scaling stiffness, mass and force together.
+fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
     Ok(best.error < HALVED * stated && likely.error_of_structure(&[], &Vec::new())? > stated)
 }
 
@@ -247,152 +211,57 @@ fn predicts_better(
     let best = &weighed.fits[0];
     let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));
     let by_modes = weighed.reference.linearisation.updating.is_by_modes();
-    if channel || (is_single_change(best) && !by_modes) {
+    if channel || (is_single_change(&best.effects) && !by_modes) {
         return Ok(true);
     }
     let groups = groups(likely.data);
-    Ok(exceeds(&weighed.reference.left_out(Some(best), &groups)?, &likely.left_out(before, &groups)?))
+    Ok(exceeds(&weighed.reference.cross_validated(Some(best), &groups)?, &likely.cross_validated(before, &groups)?))
 }
 
-/// Evidence that the last effect of a fit must bring beside `likely`, the model with corrections and the effects before it.
-fn evidence_needed(fit: &FittedModel, by_modes: bool) -> f64 {
-    match fit.effects.len() {
-        1 if is_single_change(fit) && by_modes => FURTHER,
-        1 if is_single_change(fit) => CHANGED,
+/// Whether effects leave more `error` than those `before` them, the first of them than the model as it is `stated`: what only lowers the
+/// squared residual because every run has a stiffness of its own is nothing that could be added.
+fn raises_error(error: f64, before: Option<f64>, stated: f64) -> bool {
+    error > before.map_or(stated, |before| RAISED * before)
+}
+
+/// Evidence that the last of the effects of a fit must bring beside `likely`, the model with corrections and the effects before it.
+fn evidence_needed(effects: &[Source], by_modes: bool) -> f64 {
+    match effects.len() {
+        1 if is_single_change(effects) && by_modes => FURTHER,
+        1 if is_single_change(effects) => CHANGED,
         1 => CHOSEN,
         _ => FURTHER,
     }
 }
 
-/// Whether a fit is one spring or mass, which corrections can stand for.
-fn is_single_change(fit: &FittedModel) -> bool {
-    matches!(fit.effects.as_slice(), [only] if only.effect.is_mass_or_spring())
-}
-
-/// Drops effects that the last set of a search no longer needs, now that the others are there.
-fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
-    while let Some(best) =
-        found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone()).filter(|r| r.effects.len() > 1)
-    {
-        let mut fits = Vec::new();
-        for k in 0..best.effects.len() {
-            let mut fewer = best.effects.clone();
-            fewer.remove(k);
-            fits.push(reference.estimator().fit(&fewer, 10, &FINAL, &best.starts)?);
-        }
-        let (fits, noise) = reference.polished(reference.ranked(fits))?;
-        let enough = |r: &FittedModel| reference.evidence(r, 1.0) < reference.evidence(&best, 1.0) + EVIDENCE;
-        let Some(first) = fits.first().filter(|r| enough(r)) else { break };
-        found.agrees = agrees(reference, first.chi_square, first.parameters) || nearly(reference, first, found.before);
-        found.by_size.pop();
-        let scale = scale_of(&fits, reference.count());
-        let before = found.by_size.pop().map_or_else(Vec::new, |fitted_sets| fitted_sets.fits);
-        let fits = distinct(reference.ranked(fits.into_iter().chain(before).collect()));
-        found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
-    }
-    Ok(())
-}
-
-/// The model without the effects of the last set of a search that have a parameter which the data do not know, and without which what
-/// corrections do instead has no less evidence: the model is settled beside the others, for corrections beside the whole set are not
-/// those beside fewer.
-fn without_open<'a>(reference: ReferenceModel<'a>, found: &mut Found) -> Result<ReferenceModel<'a>, DiagnosisError> {
-    let mut reference = reference;
-    while let Some(best) = found.by_size.last().map(|sets| sets.fits[0].clone()).filter(|fit| fit.effects.len() > 1) {
-        let open = |k: &usize| is_open(&best.deviations[*k], &best.effects[*k]);
-        let Some(k) = (0..best.effects.len()).find(open).filter(|_| !reference.control.is_late()) else { break };
-        let mut fewer = best.effects.clone();
-        fewer.remove(k);
-        let own = reference.with_scales(reference.linearisation.updating.scales);
-        let begun = own.estimator().fit(&fewer, REFITTED, &SEARCH, &best.starts)?;
-        let Some(weighed) = weighed(vec![own.settled(begun, &SEARCH, UPDATES)?])? else { break };
-        if weighed.least > cost(&reference, Some(&best)) + EVIDENCE || weighed.fits[0].effects.len() != fewer.len() {
-            break;
-        }
-        found.by_size.pop();
-        found.by_size.retain(|sets| sets.fits[0].effects.len() < fewer.len());
-        (reference, _) = taken(found, weighed);
-    }
-    Ok(reference)
+/// Whether the effects of a fit are one spring or mass, which corrections can stand for.
+fn is_single_change(effects: &[Source]) -> bool {
+    matches!(effects, [only] if only.effect.is_mass_or_spring())
 }
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::common::models::{source, three_masses};
-    use crate::common::runs::{channel, run};
-    use crate::control::Control;
-    use crate::diagnosis::Problem;
-    use crate::diagnosis::residual::data::Data;
-    use crate::diagnosis::residual::prediction::Predictor;
-    use crate::diagnosis::result::Suggestion;
-    use crate::diagnosis::updating::parameters::Updating;
-    use crate::effects::{Effect, Source};
-    use crate::measurement::{Quantity, Run};
-    use crate::response::harmonic_balance::{Excitation, ForwardModel};
-    use faer::c64;
-    use std::sync::Arc;
+    use crate::effects::{Effect, Place};
 
-    fn known() -> Source {
-        source(Effect::Viscous, &[0], &[0.8])
+    /// The first effect has to lower the error of the stated model; a further one may scatter by as much as errors of runs do.
+    #[test]
+    fn a_further_effect_may_raise_the_error_by_its_scatter_and_the_first_may_not() {
+        assert!(!raises_error(0.099, None, 0.1) && raises_error(0.101, None, 0.1));
+        let further = |error: f64| raises_error(error, Some(0.02), 0.1);
+        assert!(!further(0.0215) && further(0.0225) && further(0.09));
     }
 
-    fn hidden() -> Source {
-        source(Effect::CubicStiffness, &[2], &[4e6])
-    }
-
-    /// Runs at two levels about the first mode of a chain whose ground spring is 2 % stiffer than stated and which hides a cubic spring.
-    fn runs() -> Vec<Run> {
-        let (structure, deviation) = (three_masses([1.02, 1.0, 1.0]), 1e-7);
-        let model = ForwardModel::new(&structure, &[known()]).unwrap();
-        let measured_run = |(omega, force): (f64, f64)| {
-            let amplitude = c64::new(force, 0.0);
-            let excitation = Excitation::sine(omega, 2, amplitude);
-            let (sources, control) = ([known(), hidden()], Control::unattended());
-            let response = model.at(omega).respond(&sources, &excitation, &FINAL, None, &control).unwrap();
-            let motion = |dof: usize| (1..=3).map(|h| response.amplitude(dof, h)).collect();
-            let zero = c64::new(0.0, 0.0);
-            let mut channels = vec![channel(Quantity::Force, 2, vec![amplitude, zero, zero], deviation)];
-            channels.extend((0..3).map(|dof| channel(Quantity::Displacement, dof, motion(dof), deviation)));
-            run(format!("{omega} rad/s, {force} N"), omega, channels)
+    /// One spring or mass, which corrections can stand for, is held to less where they are of parts and to more where they are of modes.
+    #[test]
+    fn the_evidence_that_is_needed_depends_on_what_corrections_can_stand_for() {
+        let effect = |effect: Effect| Source::known(effect, Place::Dofs(vec![0]), &[1.0]);
+        let (spring, dashpot) = (effect(Effect::Stiffness), effect(Effect::Viscous));
+        let needed = |effects: &[&Source], by_modes: bool| {
+            evidence_needed(&effects.iter().copied().cloned().collect::<Vec<_>>(), by_modes)
         };
-        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(measured_run).collect()
-    }
-
-    /// The effects that are left of a set of which the data know the parameters of those in `open` not, and the factor on the ground
-    /// spring of the model beside them.
-    fn left_of(effects: &[Source], open: &[usize]) -> (Vec<Source>, f64) {
-        let (stated, sources, runs) = (three_masses([1.0; 3]), vec![known()], runs());
-        let data = Data::new(&Problem { structure: &stated, sources: &sources, runs: &runs }).unwrap();
-        let predictor = Arc::new(Predictor::new(&stated, sources.clone(), &data).unwrap());
-        let (control, early) = (Control::unattended(), |_: &[Suggestion]| {});
-        let model = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
-        let updating = Updating::all(&stated, &sources, &data);
-        let reference = model.updated(&updating, effects, &Vec::new()).unwrap();
-        let mut fit = reference.estimator().fit(effects, REFITTED, &SEARCH, &Vec::new()).unwrap();
-        open.iter().for_each(|&k| fit.deviations[k].fill(f64::NAN));
-        let noise = reference.noise.clone();
-        let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
-        let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
-        let settled = without_open(reference, &mut found).unwrap();
-        let ground = settled.linearisation.updating.structure(&stated).matrices().unwrap().stiffness[(0, 0)] - 1e4;
-        (found.by_size.pop().unwrap().fits.remove(0).effects, ground / 2e4)
-    }
-
-    /// The model is settled beside what is left: its spring has moved to where the records have it.
-    #[test]
-    fn an_effect_that_the_data_do_not_know_goes_from_a_set_and_the_model_settles() {
-        let idle = source(Effect::Coulomb, &[1], &[1e-6]);
-        let (left, ground) = left_of(&[hidden(), idle], &[1]);
-        assert!(matches!(left.as_slice(), [only] if only.is_same(&hidden())), "{left:?}");
-        assert!((left[0].parameters[0] / 4e6 - 1.0).abs() < 0.02, "{left:?}");
-        assert!((ground - 1.02).abs() < 2e-3, "{ground}");
-    }
-
-    #[test]
-    fn an_effect_that_corrections_cannot_stand_for_stays() {
-        let dashpot = source(Effect::Viscous, &[1], &[1e-3]);
-        assert_eq!(left_of(&[hidden(), dashpot], &[0]).0.len(), 2);
+        assert_eq!([needed(&[&spring], false), needed(&[&spring], true)], [CHANGED, FURTHER]);
+        assert_eq!([needed(&[&dashpot], false), needed(&[&dashpot], true)], [CHOSEN, CHOSEN]);
+        assert_eq!(needed(&[&dashpot, &spring], false), FURTHER);
     }
 }

@@ -30,7 +30,7 @@ const LEFT: f64 = 0.1;
 const FAR: f64 = 0.1;
 /// Share of its squared residual that a fit under way is trusted to gain.
 const PROMISE: f64 = 0.9;
-/// Evidence by which a fit under way may be promised to lag behind the best and still be followed.
+/// Evidence by which a fit under way may be promised to lag behind the best and still be refined.
 const HOPELESS_FIT: f64 = 60.0;
 
 impl ReferenceModel<'_> {
@@ -51,14 +51,14 @@ impl ReferenceModel<'_> {
         self.control.map(unfitted.len(), first).into_iter().collect()
     }
 
-    /// The fits that may still become the best, followed to the end; the others as they are. Valleys are long where
+    /// The fits that may still become the best, refined to the end; the others as they are. Valleys of the misfit are long where
     /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
     pub(crate) fn finished(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
-        let once = self.followed_once(begun)?;
-        self.followed_once(once)
+        let once = self.refined_once(begun)?;
+        self.refined_once(once)
     }
 
-    fn followed_once(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
+    fn refined_once(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let scale = scale_of(&begun, self.count());
         let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
         let promised = |r: &FittedModel| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
@@ -94,7 +94,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The sets of `fits` in which a law is all but a simpler one, with that in its stead.
-    fn by_their_name(&self, fits: &[FittedModel]) -> Result<Vec<FittedModel>, DiagnosisError> {
+    fn by_simpler_laws(&self, fits: &[FittedModel]) -> Result<Vec<FittedModel>, DiagnosisError> {
         let named = |fit: &FittedModel| -> Option<Vec<Source>> {
             let mut plain = fit.effects.clone();
             fit.all_but_simpler().for_each(|(k, simpler)| plain[k] = simpler);
@@ -126,7 +126,7 @@ impl ReferenceModel<'_> {
             best.extend::<Vec<FittedModel>>(simpler);
             rest = others;
         }
-        best.extend(self.by_their_name(&best)?);
+        best.extend(self.by_simpler_laws(&best)?);
         let mut noise = self.noise.clone();
         for steps in [8, 4] {
             let estimator = Estimator { noise: &noise, ..self.estimator() };

@@ -17,7 +17,7 @@ use crate::diagnosis::updating::parameters::Updating;
 
 /// Steps of the model.
 const STEPS: usize = 8;
-/// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be followed.
+/// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be refined.
 const CLOSE: f64 = 2.0;
 /// Share of its squared residual to which a step must bring the best place.
 const FALLING: f64 = 0.9;

@@ -1,28 +1,29 @@
 //! Fits on the response, stepwise selection of effects, conclusions, the next test.
 
+mod backward_elimination;
 mod beside_corrections;
 pub(crate) mod conclusion;
+mod cross_validation;
 pub(crate) mod estimator;
-mod exactness;
 pub(crate) mod fit_problem;
 pub(crate) mod fits;
 pub(crate) mod fitted_model;
-mod followed;
 pub(crate) mod found;
 mod joint_fit;
-mod left_out;
 pub(crate) mod levenberg_marquardt;
 mod localised;
 pub(crate) mod next_test;
 mod pairs;
 pub(crate) mod reference_model;
+mod refinement;
 pub(crate) mod search;
 pub(crate) mod sentences;
-mod settled;
 mod short_list;
 mod single_change;
 mod singles;
+mod solver_settings;
 pub(crate) mod stepwise;
+mod successive_linearisation;
 mod two_laws;
 pub(crate) mod updated;
 mod weighing;

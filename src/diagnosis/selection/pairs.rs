@@ -1,7 +1,7 @@
 //! Two effects at once: laws regressed at the pairs of places that two free forces explain best.
 
 use super::search::joined;
-use super::short_list::{Breadth, hopeless, needed};
+use super::short_list::{Breadth, score_bound, without_falling_friction};
 use super::singles::FITS;
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::residual::data::DiagnosisError;
@@ -36,9 +36,9 @@ impl ReferenceModel<'_> {
             }
         }
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-        unfitted = needed(unfitted);
+        unfitted = without_falling_friction(unfitted);
         unfitted.truncate(FITS);
-        let bound = hopeless(unfitted.first().map_or(f64::INFINITY, |best| best.score));
+        let bound = score_bound(unfitted.first().map_or(f64::INFINITY, |best| best.score));
         unfitted.retain(|d| d.score < bound);
         Ok(self.ranked(self.fit_all(&unfitted)?))
     }

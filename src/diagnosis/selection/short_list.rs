@@ -34,7 +34,7 @@ pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
 }
 
 /// Score beyond which sets are not fitted where the best has the score `best`.
-pub(super) fn hopeless(best: f64) -> f64 {
+pub(super) fn score_bound(best: f64) -> f64 {
     HOPELESS * best.abs() + 300.0
 }
 
@@ -51,7 +51,7 @@ pub(crate) enum Breadth {
 
 /// The places whose laws of many parameters are regressed: those that leave least to a free force, and those that leave least
 /// to a law of few.
-pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> Vec<usize> {
+pub(super) fn promising_places(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> Vec<usize> {
     let score = |k: usize| {
         let best = laws[k].iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
         placings[k].chi_square + best
@@ -69,14 +69,14 @@ pub(super) fn telling(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> V
 }
 
 /// Whether an effect is friction with a smooth part that changes with velocity.
-fn falls(source: &Source) -> bool {
+fn is_falling_friction(source: &Source) -> bool {
     friction(source.effect).is_some_and(SetValued::has_smooth_part)
 }
 
 /// Sets without falling friction where plain friction explains the free forces as well: its responses take longest, and it
 /// is fitted where plain friction leaves something.
-pub(super) fn needed(unfitted: Vec<UnfittedSet>) -> Vec<UnfittedSet> {
-    let falling = |d: &UnfittedSet| d.effects.iter().filter(|e| falls(e)).count();
+pub(super) fn without_falling_friction(unfitted: Vec<UnfittedSet>) -> Vec<UnfittedSet> {
+    let falling = |d: &UnfittedSet| d.effects.iter().filter(|e| is_falling_friction(e)).count();
     let plainer = |a: &UnfittedSet, b: &UnfittedSet| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
     let needless = |d: &UnfittedSet| unfitted.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
     unfitted.iter().filter(|d| !needless(d)).cloned().collect()
@@ -85,9 +85,9 @@ pub(super) fn needed(unfitted: Vec<UnfittedSet>) -> Vec<UnfittedSet> {
 /// The best sets, no more than a few at one place, each with the simpler laws that it contains as limits.
 pub(super) fn short_list(mut unfitted: Vec<UnfittedSet>, most: usize) -> Vec<UnfittedSet> {
     unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let hopeless = hopeless(unfitted.first().map_or(f64::INFINITY, |best| best.score));
+    let bound = score_bound(unfitted.first().map_or(f64::INFINITY, |best| best.score));
     let mut kept: Vec<UnfittedSet> = Vec::new();
-    for unfitted in unfitted.iter().filter(|d| d.score < hopeless) {
+    for unfitted in unfitted.iter().filter(|d| d.score < bound) {
         let here = kept.iter().filter(|k| k.effects[0].place == unfitted.effects[0].place).count();
         if here < LAWS_AT_ONE_PLACE {
             kept.push(unfitted.clone());

@@ -7,7 +7,7 @@
 //!
 //! Corrections whose scale is estimated can stand for any change of stiffness and mass: they are then larger than models are
 //! wrong by. Beside the one part that is changed their scale is small again, and so is `E`. Everything is linear about the model as
-//! it was corrected, so that all places are looked at; the best are followed.
+//! it was corrected, so that all places are looked at; the best are refined.
 
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
@@ -25,9 +25,9 @@ use faer::Mat;
 
 /// Places that leave least to a free force, at which it is looked for.
 const PLACES: usize = 60;
-/// Evidence behind that of the best within which others are followed.
+/// Evidence behind that of the best within which others are refined.
 const MARGIN: f64 = 20.0;
-/// Most that are followed.
+/// Most that are refined.
 const FOLLOWED: usize = 3;
 /// Rounds in which the scales are estimated.
 const ROUNDS: usize = 12;
@@ -75,15 +75,15 @@ impl<'a> ReferenceModel<'a> {
         Ok(changes)
     }
 
-    /// The change followed with a model updated beside it.
-    pub(super) fn followed_change(
+    /// The change refined with a model updated beside it.
+    pub(super) fn refined_change(
         &self,
         change: &SingleChange,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = std::slice::from_ref(&change.source);
         let reference = self.updated_as(&change.updating, effects, &Vec::new(), &SEARCH)?;
         let fit = reference.estimator().fit(effects, STEPS, &SEARCH, &[])?;
-        reference.settled(fit, &SEARCH, UPDATES)
+        reference.converged(fit, &SEARCH, UPDATES)
     }
 
     /// Linear laws of one parameter, at the places that leave least to a free force, and of the whole structure.

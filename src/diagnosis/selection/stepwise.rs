@@ -121,7 +121,7 @@ pub(crate) fn add_size(
     // Beside a model that is not exact none of them agrees: other laws and places are then looked at beside corrections.
     let hopeless = best.chi_square > INEXACT * reference.count() as f64;
     if !hopeless && !fits_well(reference, found, best) {
-        let more = reference.wider(best, |_| true)?;
+        let more = reference.generalisations(best, |_| true)?;
         fits.extend(more);
         (fits, noise) = reference.polished(distinct(reference.ranked(fits)))?;
     }

@@ -12,9 +12,9 @@ use crate::effects::{Kind, Place, Source};
 use crate::math::statistics::bayesian_information;
 use std::sync::Arc;
 
-/// Pairs of laws that are followed.
+/// Pairs of laws that are refined.
 const FOLLOWED: usize = 4;
-/// Evidence that two laws must bring by their regression on the free force, in units of what they leave, to be followed.
+/// Evidence that two laws must bring by their regression on the free force, in units of what they leave, to be refined.
 const REGRESSED: f64 = 50.0;
 /// Scatter of the stiffness and of the response from run to run, relative, that tests of one structure have: a single law that agrees
 /// with the data beside no more than this needs no other.
@@ -33,7 +33,7 @@ impl<'a> ReferenceModel<'a> {
         if unfitted.is_empty() {
             return Ok(None);
         }
-        let Some(two) = weighed(self.followed(unfitted)?)? else { return Ok(None) };
+        let Some(two) = weighed(self.refined(unfitted)?)? else { return Ok(None) };
         let effects = &two.fits[0].effects;
         let both = effects.len() > 1 && !effects.iter().any(|e| e.effect.is_mass_or_spring());
         let gains = gains(&two, best);

@@ -5,11 +5,11 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possibl
 use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
-use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
@@ -184,7 +184,7 @@ impl<'a> ReferenceModel<'a> {
             }
         }
         match best {
-            Some((_, reference)) => reference.settled_bare(STEPS),
+            Some((_, reference)) => reference.converged_bare(STEPS),
             None => self.updated(&rigid, &[], &Vec::new()),
         }
     }
@@ -219,7 +219,7 @@ impl<'a> ReferenceModel<'a> {
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
         let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
         let strict = |scales: Scales| -> Result<(ReferenceModel<'a>, f64, bool), DiagnosisError> {
-            let strict = start.with_scales(scales).settled_bare(STEPS)?;
+            let strict = start.with_scales(scales).converged_bare(STEPS)?;
             let left = sum_of_squares(&strict.estimator().residual(&strict.predictions));
             let (cost, enough) = (left + strict.noise.cost(), agrees(&strict, left, 0));
             Ok((strict, cost, enough))
@@ -281,8 +281,8 @@ impl<'a> ReferenceModel<'a> {
 
     /// This model settled with the scales that are estimated without any effect, and its evidence.
     pub(super) fn estimated(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
-        let settled = self.with_likely_scales(None, &FINAL)?.0.settled_bare(STEPS)?;
-        let estimated = settled.with_likely_scales(None, &FINAL)?.0;
+        let converged = self.with_likely_scales(None, &FINAL)?.0.converged_bare(STEPS)?;
+        let estimated = converged.with_likely_scales(None, &FINAL)?.0;
         let cost = sum_of_squares(&estimated.estimator().residual(&estimated.predictions)) + estimated.noise.cost();
         Ok((estimated, cost))
     }

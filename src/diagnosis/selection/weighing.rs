@@ -1,19 +1,19 @@
 //! Candidates with models of their own: ordered by their evidence (what they leave, what their parameters and the freedom of the
 //! model beside them cost), with probabilities by how well they predict runs that are left out.
 
-use super::left_out::{exceeds, groups};
+use super::cross_validation::{exceeds, groups};
 use super::short_list::VOID;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::UNEXPLAINED;
-use crate::diagnosis::selection::exactness::rubs;
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, same_set};
-use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::settled::SETTLED;
+use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::solver_settings::has_friction;
+use crate::diagnosis::selection::successive_linearisation::CONVERGED;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::diagnosis::updating::scales::Scales;
@@ -31,6 +31,17 @@ pub(super) struct Weighed<'a> {
     pub probabilities: Vec<f64>,
     /// Evidence of the best.
     pub least: f64,
+}
+
+impl<'a> Weighed<'a> {
+    /// Makes it what was found last; its model and its evidence.
+    pub(super) fn taken_into(self, found: &mut Found) -> (ReferenceModel<'a>, f64) {
+        let Self { reference, fits, probabilities, least } = self;
+        found.agrees = agrees(&reference, fits[0].chi_square, fits[0].parameters);
+        let scale = scale_of(&fits, reference.count());
+        found.by_size.push(FittedSets { scale, noise: reference.noise.clone(), fits, probabilities });
+        (reference, least)
+    }
 }
 
 /// A candidate with the model that was updated beside it.
@@ -67,7 +78,7 @@ const FINISHED: usize = 2;
 /// Weighs fitted candidates, each with the model that was updated beside it.
 pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(by_simplest_name(fits)?)?;
-    let wider = all.first().map_or(Ok(Vec::new()), wider_than)?;
+    let wider = all.first().map_or(Ok(Vec::new()), generalisations_of)?;
     let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));
     let wider: Vec<Candidate> = wider.into_iter().filter(fresh).collect();
     all.retain(|c| !wider.iter().any(|w| same_set(&w.fit.effects, &c.fit.effects)));
@@ -156,24 +167,24 @@ fn error_of(reference: &ReferenceModel, fit: &FittedModel) -> Result<f64, Diagno
 
 fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidate<'_>, DiagnosisError> {
     let error = error_of(&reference, &fit)?;
-    let densities = reference.left_out(Some(&fit), &groups(reference.data))?;
+    let densities = reference.cross_validated(Some(&fit), &groups(reference.data))?;
     Ok(Candidate { cost: cost(&reference, Some(&fit)), fit: FittedModel { error, ..fit }, densities, reference })
 }
 
 /// The laws that the best may have been taken for, in its stead and each with a model settled beside it: where the best is linear,
-/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to follow.
-fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
+/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to refine.
+fn generalisations_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let (reference, left) = (&best.reference, best.fit.chi_square / best.reference.count() as f64);
     let linear = best.fit.effects.iter().all(|e| e.effect.is_linear());
     let doubtful = left > DOUBTFUL;
     if reference.control.is_late() || left > UNEXPLAINED || !(linear || doubtful) {
         return Ok(Vec::new());
     }
-    let mut fits = reference.wider(&best.fit, |effect| doubtful || effect.is_linear())?;
+    let mut fits = reference.generalisations(&best.fit, |effect| doubtful || effect.is_linear())?;
     fits.sort_by(|a, b| cost(reference, Some(a)).total_cmp(&cost(reference, Some(b))));
     let bound = |fit: &FittedModel| match doubtful {
         // Friction is judged with more harmonics than it is fitted with here.
-        true if rubs(&fit.effects) => HEAVY * best.cost,
+        true if has_friction(&fit.effects) => HEAVY * best.cost,
         true => best.cost,
         false => best.cost + LIGHT,
     };
@@ -183,9 +194,9 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
         let near = cost(reference, Some(&fit)) < bound(&fit) && is_effect(reference, &fit);
         if !known && near && wider.len() < WIDER {
             let own = reference.with_scales(reference.linearisation.updating.scales);
-            let settled = own.settled(fit, &SEARCH, WIDER_UPDATES)?;
-            for (there, settled) in by_simplest_name(vec![settled])? {
-                wider.push(candidate(there, settled)?);
+            let converged = own.converged(fit, &SEARCH, WIDER_UPDATES)?;
+            for (there, converged) in by_simplest_name(vec![converged])? {
+                wider.push(candidate(there, converged)?);
             }
         }
     }
@@ -193,7 +204,7 @@ fn wider_than<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisE
 }
 
 /// The sets in which one effect of the best is the simpler law that it contains as a limit, fitted beside the same model: a
-/// simpler law that was followed by itself may have ended in a valley of its own.
+/// simpler law that was refined by itself may have ended in another local minimum.
 fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let mut limits = Vec::new();
     let late = best.reference.control.is_late();
@@ -291,16 +302,16 @@ fn finished(
             break;
         }
         let before = cost(&reference, Some(&fit));
-        let (there, settled) = reference.settled(fit, &SEARCH, UPDATES)?;
-        let (likely, again) = there.with_likely_scales(Some(&settled), &SEARCH)?;
-        let again = again.unwrap_or_else(|| settled.clone());
-        let better = cost(&likely, Some(&again)) < cost(&there, Some(&settled));
-        (reference, fit) = if better { (likely, again) } else { (there, settled) };
-        if before - cost(&reference, Some(&fit)) < SETTLED {
+        let (there, converged) = reference.converged(fit, &SEARCH, UPDATES)?;
+        let (likely, again) = there.with_likely_scales(Some(&converged), &SEARCH)?;
+        let again = again.unwrap_or_else(|| converged.clone());
+        let better = cost(&likely, Some(&again)) < cost(&there, Some(&converged));
+        (reference, fit) = if better { (likely, again) } else { (there, converged) };
+        if before - cost(&reference, Some(&fit)) < CONVERGED {
             break;
         }
     }
-    reference.settled(fit, &FINAL, UPDATES)
+    reference.converged(fit, &FINAL, UPDATES)
 }
 
 /// Whether both are the same coupling read from either end.

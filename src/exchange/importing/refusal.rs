@@ -1,6 +1,6 @@
 //! Why nothing of a file can be imported, in one line that says how to mend it.
 
-use dashpot_datafiles::{Contents, Kind, Set};
+use dashpot_datafiles::{Contents, Defect, Kind, Note, Set};
 
 /// Most channels that are named.
 const MOST_NAMED: usize = 3;
@@ -41,7 +41,7 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String 
                 --nodes beside --mass"
             .to_owned();
     }
-    let skipped = |note: &&String| note.contains(" is not read: ");
+    let skipped = |note: &&Note| note.tells(Defect::NotRead);
     if let Some(note) = contents.sets.iter().flat_map(|set| &set.notes).chain(&contents.notes).find(skipped) {
         return format!("holds nothing that is read: {note}");
     }

@@ -4,7 +4,7 @@ use super::fault::{At, data};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::exchange::records::RecordFileError;
-use dashpot_datafiles::{Axis, BROKEN_OFF, CUT_OFF, DataFile, Kind, TIME_GOES_BACK, Values};
+use dashpot_datafiles::{Axis, DataFile, Defect, Kind, Note, Values};
 
 /// Largest difference of the times of two channels of a run, in steps.
 const SAME_TIME: f64 = 0.01;
@@ -109,7 +109,7 @@ pub(super) fn times(
     match (axis, sampling_hz) {
         (None, None) => {
             let notes = &file.contents().sets[set].notes;
-            if let Some(back) = notes.iter().find(|note| note.starts_with(TIME_GOES_BACK)) {
+            if let Some(back) = notes.iter().find(|note| note.tells(Defect::TimeGoesBack)) {
                 return Err(at.error(None, format!("{back}; sort the rows by time")));
             }
             let problem = "the file does not say the time between samples; add `sampling_hz` to its [[run]]";
@@ -143,10 +143,10 @@ pub(super) fn same_even_axis(file: &DataFile, first: (usize, usize), other: (usi
 }
 
 /// What a file says of its end where it was cut off, which is why its channels are not of one length.
-fn cut_off(file: &DataFile, set: usize) -> Option<&str> {
+fn cut_off(file: &DataFile, set: usize) -> Option<&Note> {
     let contents = file.contents();
-    let said = |note: &&String| note.starts_with(CUT_OFF) || note.ends_with(BROKEN_OFF);
-    contents.sets[set].notes.iter().chain(&contents.notes).find(said).map(String::as_str)
+    let said = |note: &&Note| note.tells(Defect::CutOff) || note.tells(Defect::BrokenOff);
+    contents.sets[set].notes.iter().chain(&contents.notes).find(said)
 }
 
 /// Refuses channels of a file that was cut off and are not of one length.
@@ -154,7 +154,7 @@ pub(super) fn whole(file: &DataFile, places: &[(usize, usize)], at: &At<'_>) -> 
     let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
     let uneven = places.windows(2).any(|pair| count(&pair[0]) != count(&pair[1]));
     match places.first().and_then(|&(set, _)| cut_off(file, set)).filter(|_| uneven) {
-        Some(cut) if cut.starts_with(CUT_OFF) => {
+        Some(cut) if cut.tells(Defect::CutOff) => {
             Err(at.error(None, format!("{cut}: it was cut off; copy or export it again, or remove the last row")))
         }
         Some(broken) => Err(at.error(None, format!("{broken}; copy or export it again with channels of one length"))),

@@ -47,8 +47,6 @@ impl std::error::Error for ProjectError {}
 pub enum Problem {
     #[error("cannot be read: {reason}; check the path")]
     Unreadable { reason: String },
-    #[error("cannot be written: {reason}; check the folder")]
-    Unwritable { reason: String },
     #[error("byte {position} is not UTF-8; save the project as UTF-8 text")]
     NotText { position: usize },
     #[error("not valid TOML: {message}")]

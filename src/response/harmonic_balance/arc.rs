@@ -142,10 +142,10 @@ fn reference(balance: &Balance) -> f64 {
 fn oriented(balance: &Balance, u: Vec<f64>, level: f64, previous: &[f64], least: f64) -> Option<Point> {
     let scale = measure(&u, least);
     let state = balance.state(&u, level);
-    let column = balance.by_level(&state.answers);
+    let column = balance.by_level(&state.evaluations);
     let mut tangent = vec![0.0; u.len() + 1];
     tangent[u.len()] = 1.0;
-    bordered(&balance.jacobian(&state.answers), &column, previous, 1.0 / scale, 1.0)?.solve(&mut tangent);
+    bordered(&balance.jacobian(&state.evaluations), &column, previous, 1.0 / scale, 1.0)?.solve(&mut tangent);
     let (last, forces) = tangent.split_last()?;
     let norm = (forces.iter().map(|t| t * t / scale).sum::<f64>() + last * last).sqrt();
     tangent.iter_mut().for_each(|t| *t /= norm);
@@ -163,8 +163,8 @@ fn advance(balance: &Balance, point: &Point, step: f64, tolerance: f64, least: f
         if relative(&state.residual, &u) <= 1e3 * tolerance {
             return Some((oriented(balance, u, level, &point.tangent, least)?, iteration));
         }
-        let column = balance.by_level(&state.answers);
-        let lu = bordered(&balance.jacobian(&state.answers), &column, &point.tangent, 1.0 / scale, 1.0)?;
+        let column = balance.by_level(&state.evaluations);
+        let lu = bordered(&balance.jacobian(&state.evaluations), &column, &point.tangent, 1.0 / scale, 1.0)?;
         let along: f64 = u.iter().zip(&point.u).zip(&point.tangent).map(|((x, o), t)| (x - o) * t / scale).sum();
         let mut change = state.residual;
         change.push(along + (level - point.level) * point.tangent[count] - step);

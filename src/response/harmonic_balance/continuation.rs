@@ -205,7 +205,7 @@ impl Tracer<'_> {
         let prepared = self.prepared(omega).ok()?;
         let balance = prepared.balance();
         let state = balance.state(&u, 1.0);
-        let jacobian = balance.jacobian(&state.answers);
+        let jacobian = balance.jacobian(&state.evaluations);
         let column = self.by_omega(&u, omega, &state.residual)?;
         let sign = Lu::new(u.len(), jacobian.clone())?.sign();
         let (wu, ww) = self.weights(&u);
@@ -238,7 +238,7 @@ impl Tracer<'_> {
             if column.is_none() || iteration == 3 {
                 column = Some(self.by_omega(&u, omega, &state.residual)?);
             }
-            let lu = bordered(&balance.jacobian(&state.answers), column.as_ref()?, &place.tangent, wu, ww)?;
+            let lu = bordered(&balance.jacobian(&state.evaluations), column.as_ref()?, &place.tangent, wu, ww)?;
             let along: f64 = u.iter().zip(&place.u).zip(&place.tangent).map(|((x, o), t)| (x - o) * t * wu).sum();
             let mut change = state.residual;
             change.push(along + (omega - place.omega) * place.tangent[count] * ww - step);

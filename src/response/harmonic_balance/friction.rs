@@ -11,7 +11,7 @@
 //! is clamped, is exact; the rest is of second order in the sample.
 
 use super::fourier::{Fourier, differentiate};
-use super::nonlinear_leg::{Answer, NonlinearLeg, add_velocity_columns};
+use super::nonlinear_leg::{LawEvaluation, NonlinearLeg, add_velocity_columns};
 use crate::effects::SetValued;
 
 /// Least and greatest force at rest, N.
@@ -125,7 +125,13 @@ pub(crate) fn value(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[
 }
 
 /// `Phi` with its derivatives.
-pub(crate) fn answer(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
+pub(crate) fn evaluate(
+    leg: &NonlinearLeg,
+    fourier: &Fourier,
+    omega: f64,
+    force: &[f64],
+    motion: &[f64],
+) -> LawEvaluation {
     let at = histories(leg, fourier, omega, force, motion);
     let bounds = bounds(leg);
     let cells: Vec<[f64; 3]> =
@@ -145,7 +151,7 @@ pub(crate) fn answer(leg: &NonlinearLeg, fourier: &Fourier, omega: f64, force: &
     }
     let mut by_motion = vec![0.0; fourier.width() * fourier.width()];
     add_velocity_columns(&mut by_motion, &by_velocity, omega, fourier);
-    Answer { value, by_force: Some(by_force), by_motion }
+    LawEvaluation { value, by_force: Some(by_force), by_motion }
 }
 
 /// The matrix of "take the values at the edges of each cell, weigh and add the two, project, restore".

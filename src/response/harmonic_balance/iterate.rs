@@ -7,8 +7,8 @@
 
 use super::dense::Lu;
 use super::fourier::Parity;
-use super::kept::Kept;
 use super::newton::{Balance, NewtonState, relative};
+use super::unknown_subset::UnknownSubset;
 
 /// Smallest share of a Newton step that is tried before it is taken all the same.
 const LEAST_SHARE: f64 = 1.0 / 64.0;
@@ -38,10 +38,10 @@ impl Balance<'_> {
     /// Iterates `u` to the balance under `level` times the excitation.
     pub(crate) fn solve(&self, u: &mut Vec<f64>, level: f64, tolerance: f64) -> Ending {
         let mut steps = 0;
-        if let Some((parity, sets)) = self.apart(u, level) {
+        if let Some((parity, sets)) = self.decoupled(u, level) {
             let start = u.clone();
             if parity == Parity::Odd {
-                let even = Kept::even(self.condensed);
+                let even = UnknownSubset::even(self.condensed);
                 even.indices.iter().for_each(|&k| u[k] = 0.0);
             }
             let table = self.fourier.with(parity);
@@ -54,16 +54,16 @@ impl Balance<'_> {
             steps = ending.steps;
             *u = start;
         }
-        let ending = self.iterate(u, &[Kept::all(self.condensed)], level, tolerance, STEPS);
+        let ending = self.iterate(u, &[UnknownSubset::all(self.condensed)], level, tolerance, STEPS);
         Ending { steps: steps + ending.steps, ..ending }
     }
 
     /// The sets of unknowns that may be corrected each for itself; none if all depend on each other.
-    fn apart(&self, u: &[f64], level: f64) -> Option<(Parity, Vec<Kept>)> {
+    fn decoupled(&self, u: &[f64], level: f64) -> Option<(Parity, Vec<UnknownSubset>)> {
         if !self.condensed.mirrored {
             return None;
         }
-        let (odd, even) = (Kept::odd(self.condensed), Kept::even(self.condensed));
+        let (odd, even) = (UnknownSubset::odd(self.condensed), UnknownSubset::even(self.condensed));
         let motion = self.condensed.motion(u, level);
         let below = |share: f64| {
             even.largest(u) <= share * odd.largest(u) && even.largest(&motion) <= share * odd.largest(&motion)
@@ -74,7 +74,7 @@ impl Balance<'_> {
         below(SMALL).then(|| (Parity::Split, vec![odd, even]))
     }
 
-    fn iterate(&self, u: &mut Vec<f64>, sets: &[Kept], level: f64, tolerance: f64, most: usize) -> Ending {
+    fn iterate(&self, u: &mut Vec<f64>, sets: &[UnknownSubset], level: f64, tolerance: f64, most: usize) -> Ending {
         let mut state = self.state(u, level);
         let mut best = (f64::INFINITY, u.clone());
         let mut factors = Factors::default();
@@ -105,22 +105,22 @@ impl Balance<'_> {
     }
 
     /// Newton's step, each set of unknowns by its own part of the Jacobian.
-    fn step(&self, state: &NewtonState, sets: &[Kept], factors: &mut Factors) -> Option<Vec<f64>> {
+    fn step(&self, state: &NewtonState, sets: &[UnknownSubset], factors: &mut Factors) -> Option<Vec<f64>> {
         let mut step = vec![0.0; state.residual.len()];
-        for (number, kept) in sets.iter().enumerate() {
-            let mut part: Vec<f64> = kept.indices.iter().map(|&i| state.residual[i]).collect();
-            let fresh = || Lu::new(part.len(), self.jacobian_of(&state.answers, kept));
+        for (number, subset) in sets.iter().enumerate() {
+            let mut part: Vec<f64> = subset.indices.iter().map(|&i| state.residual[i]).collect();
+            let fresh = || Lu::new(part.len(), self.jacobian_of(&state.evaluations, subset));
             if number == 0 {
                 fresh()?.solve(&mut part);
             } else {
-                let largest = kept.largest(&state.residual);
+                let largest = subset.largest(&state.residual);
                 if factors.lu.is_none() || largest > SERVES * factors.residual {
                     factors.lu = Some(fresh()?);
                 }
                 factors.residual = largest;
                 factors.lu.as_ref()?.solve(&mut part);
             }
-            kept.indices.iter().zip(part).for_each(|(&i, s)| step[i] = s);
+            subset.indices.iter().zip(part).for_each(|(&i, s)| step[i] = s);
         }
         Some(step)
     }

@@ -9,7 +9,6 @@
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
 //! (`continuation`; `branches` at one force); stability is that of Floquet's multipliers (`stability`).
 
-mod answers;
 mod arc;
 mod branches;
 mod compliance;
@@ -22,7 +21,7 @@ mod fourier;
 mod friction;
 mod harmonic_system;
 mod iterate;
-mod kept;
+mod law_evaluation;
 mod linear_leg;
 mod modal_basis;
 mod model;
@@ -34,6 +33,7 @@ mod resonant;
 mod settings;
 mod solve;
 mod stability;
+mod unknown_subset;
 
 pub(crate) use compliance::LinearPart;
 pub(crate) use condense::Condensed;

@@ -3,8 +3,8 @@
 
 use super::condense::Condensed;
 use super::fourier::Fourier;
-use super::kept::{DROPPED, Kept};
-use super::nonlinear_leg::{Answer, SLACK};
+use super::nonlinear_leg::{LawEvaluation, SLACK};
+use super::unknown_subset::{DROPPED, UnknownSubset};
 use dashpot_numerics::dot;
 use faer::c64;
 
@@ -17,7 +17,7 @@ pub(crate) struct Balance<'a> {
 /// Residual with everything its Jacobian needs.
 pub(crate) struct NewtonState {
     pub residual: Vec<f64>,
-    pub answers: Vec<Answer>,
+    pub evaluations: Vec<LawEvaluation>,
 }
 
 impl Balance<'_> {
@@ -49,17 +49,18 @@ impl Balance<'_> {
     pub(crate) fn state(&self, u: &[f64], level: f64) -> NewtonState {
         let motion = self.condensed.motion(u, level);
         let mut residual = vec![0.0; u.len()];
-        let mut answers = Vec::with_capacity(self.condensed.legs.len());
+        let mut evaluations = Vec::with_capacity(self.condensed.legs.len());
         for (i, leg) in self.condensed.legs.iter().enumerate() {
             let range = self.range(i);
-            let answer = leg.answer(self.fourier, self.condensed.omega, &u[range.clone()], &motion[range.clone()]);
-            for ((r, f), p) in residual[range.clone()].iter_mut().zip(&u[range]).zip(&answer.value) {
+            let evaluation =
+                leg.evaluate(self.fourier, self.condensed.omega, &u[range.clone()], &motion[range.clone()]);
+            for ((r, f), p) in residual[range.clone()].iter_mut().zip(&u[range]).zip(&evaluation.value) {
                 *r = f * (1.0 + self.slack(i)) - p;
             }
-            answers.push(answer);
+            evaluations.push(evaluation);
         }
         self.resonant_residual(u, &motion, &mut residual);
-        NewtonState { residual, answers }
+        NewtonState { residual, evaluations }
     }
 
     /// Harmonic, number there and stiffness of every mode at resonance.
@@ -78,37 +79,37 @@ impl Balance<'_> {
     }
 
     /// Jacobian `dR/dF`, row by row.
-    pub(crate) fn jacobian(&self, answers: &[Answer]) -> Vec<f64> {
-        self.jacobian_of(answers, &Kept::all(self.condensed))
+    pub(crate) fn jacobian(&self, evaluations: &[LawEvaluation]) -> Vec<f64> {
+        self.jacobian_of(evaluations, &UnknownSubset::all(self.condensed))
     }
 
-    /// The rows and columns of the Jacobian that belong to the unknowns `kept`.
-    pub(crate) fn jacobian_of(&self, answers: &[Answer], kept: &Kept) -> Vec<f64> {
-        let (size, width) = (kept.indices.len(), self.condensed.width());
+    /// The rows and columns of the Jacobian that belong to the unknowns `subset`.
+    pub(crate) fn jacobian_of(&self, evaluations: &[LawEvaluation], subset: &UnknownSubset) -> Vec<f64> {
+        let (size, width) = (subset.indices.len(), self.condensed.width());
         let mut jacobian = vec![0.0; size * size];
-        for (i, answer) in answers.iter().enumerate() {
-            for &row in &kept.rows {
-                let own = kept.slot[i * width + row];
+        for (i, evaluation) in evaluations.iter().enumerate() {
+            for &row in &subset.rows {
+                let own = subset.slot[i * width + row];
                 let out = &mut jacobian[own * size..(own + 1) * size];
-                self.add_coupled(i, &answer.by_motion[row * width..(row + 1) * width], kept, out);
-                if let Some(by_force) = &answer.by_force {
-                    for &column in &kept.rows {
-                        out[kept.slot[i * width + column]] -= by_force[row * width + column];
+                self.add_coupled(i, &evaluation.by_motion[row * width..(row + 1) * width], subset, out);
+                if let Some(by_force) = &evaluation.by_force {
+                    for &column in &subset.rows {
+                        out[subset.slot[i * width + column]] -= by_force[row * width + column];
                     }
                 }
                 out[own] += 1.0 + self.slack(i);
             }
         }
-        self.resonant_rows(&mut jacobian, kept);
+        self.resonant_rows(&mut jacobian, subset);
         jacobian
     }
 
     /// Rows `1 + z C` of the modes at resonance.
-    fn resonant_rows(&self, jacobian: &mut [f64], kept: &Kept) {
-        let (condensed, size) = (self.condensed, kept.indices.len());
+    fn resonant_rows(&self, jacobian: &mut [f64], subset: &UnknownSubset) {
+        let (condensed, size) = (self.condensed, subset.indices.len());
         for (h, r, z) in self.resonances() {
             let (system, i) = (&condensed.systems[h], condensed.legs.len() + r);
-            let row = kept.slot[condensed.resonant_index(h, r)];
+            let row = subset.slot[condensed.resonant_index(h, r)];
             if row == DROPPED {
                 continue;
             }
@@ -116,7 +117,7 @@ impl Balance<'_> {
             jacobian[(row + 1) * size + row + 1] += 1.0;
             for j in 0..system.count() {
                 let slope = z * system.coupling(i, j);
-                let column = kept.slot[condensed.index(h, j)];
+                let column = subset.slot[condensed.index(h, j)];
                 // (a - i b) -> slope (a - i b), cosine and sine.
                 jacobian[row * size + column] += slope.re;
                 jacobian[row * size + column + 1] += slope.im;
@@ -127,43 +128,43 @@ impl Balance<'_> {
     }
 
     /// Adds a row of `Phi_D C_i`, the slopes of leg `i` by its own coefficients given.
-    fn add_coupled(&self, i: usize, slopes: &[f64], kept: &Kept, out: &mut [f64]) {
-        if kept.mean {
+    fn add_coupled(&self, i: usize, slopes: &[f64], subset: &UnknownSubset, out: &mut [f64]) {
+        if subset.mean {
             let (system, width) = (&self.condensed.systems[0], self.condensed.width());
             for j in 0..system.count() {
-                out[kept.slot[j * width]] += slopes[0] * system.coupling(i, j).re;
+                out[subset.slot[j * width]] += slopes[0] * system.coupling(i, j).re;
             }
         }
-        for &h in &kept.orders {
+        for &h in &subset.orders {
             let (a, b) = (slopes[2 * h - 1], slopes[2 * h]);
             let system = &self.condensed.systems[h];
             for j in 0..system.count() {
-                let (c, cos) = (system.coupling(i, j), kept.slot[self.condensed.index(h, j)]);
+                let (c, cos) = (system.coupling(i, j), subset.slot[self.condensed.index(h, j)]);
                 out[cos] += a * c.re - b * c.im;
                 out[cos + 1] += a * c.im + b * c.re;
             }
         }
     }
 
-    /// Change of the laws' answers under a change `motion` of the relative motions (coefficients of all legs).
-    pub(crate) fn answer_change(&self, answers: &[Answer], motion: &[f64]) -> Vec<f64> {
+    /// Change of the laws' forces under a change `motion` of the relative motions (coefficients of all legs).
+    pub(crate) fn force_change(&self, evaluations: &[LawEvaluation], motion: &[f64]) -> Vec<f64> {
         let width = self.condensed.width();
         let mut change = Vec::with_capacity(motion.len());
-        for (answer, part) in answers.iter().zip(motion.chunks_exact(width)) {
-            change.extend(answer.by_motion.chunks_exact(width).map(|row| dot(row, part)));
+        for (evaluation, part) in evaluations.iter().zip(motion.chunks_exact(width)) {
+            change.extend(evaluation.by_motion.chunks_exact(width).map(|row| dot(row, part)));
         }
         change.resize(motion.len(), 0.0);
         for (h, r, z) in self.resonances() {
-            let j = answers.len() + r;
+            let j = evaluations.len() + r;
             self.condensed.add(&mut change, h, j, z * self.condensed.get(motion, h, j));
         }
         change
     }
 
     /// Derivative of the residual by the level of the excitation: `-Phi_D D_lin`.
-    pub(crate) fn by_level(&self, answers: &[Answer]) -> Vec<f64> {
+    pub(crate) fn by_level(&self, evaluations: &[LawEvaluation]) -> Vec<f64> {
         let still = vec![0.0; self.condensed.size()];
-        let mut change = self.answer_change(answers, &self.condensed.motion(&still, 1.0));
+        let mut change = self.force_change(evaluations, &self.condensed.motion(&still, 1.0));
         change.iter_mut().for_each(|c| *c = -*c);
         change
     }
@@ -172,6 +173,6 @@ impl Balance<'_> {
 /// Largest residual relative to the largest force.
 pub(crate) fn relative(residual: &[f64], u: &[f64]) -> f64 {
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let answer = largest(u) + largest(residual);
-    if answer == 0.0 { 0.0 } else { largest(residual) / answer }
+    let size = largest(u) + largest(residual);
+    if size == 0.0 { 0.0 } else { largest(residual) / size }
 }

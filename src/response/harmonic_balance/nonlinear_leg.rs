@@ -45,7 +45,7 @@ impl NonlinearLeg {
 }
 
 /// `Phi` of one leg with its derivatives.
-pub(crate) struct Answer {
+pub(crate) struct LawEvaluation {
     /// Coefficients of `Phi`, `2 H + 1`.
     pub value: Vec<f64>,
     /// Derivative by the coefficients of the own force, row by row; `None` is zero.

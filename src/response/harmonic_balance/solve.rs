@@ -162,7 +162,7 @@ impl Ladder<'_> {
         let balance = prepared.balance();
         let state = balance.state(&u, 1.0);
         let mut step = state.residual.clone();
-        if let Some(lu) = Lu::new(u.len(), balance.jacobian(&state.answers)) {
+        if let Some(lu) = Lu::new(u.len(), balance.jacobian(&state.evaluations)) {
             lu.solve(&mut step);
             u.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
         }

@@ -6,9 +6,9 @@
 //! defined harmonic by harmonic enter with their stiffness and damping at the fundamental. Where friction sticks, it
 //! holds the disturbance by a stiff damping. The cost grows with the cube of the degrees of freedom.
 
-use super::answers::sampled;
 use super::excitation::Excitation;
 use super::fourier::{Fourier, differentiate};
+use super::law_evaluation::sampled;
 use super::linear_leg::stiffness_of;
 use super::model::RunModel;
 use super::nonlinear_leg::NonlinearLeg;

@@ -10,7 +10,6 @@
 //! Derivatives by parameters of laws, stiffness, mass and the initial state are those of the same steps, the instants of
 //! reversals included.
 
-mod along;
 mod assembly;
 mod changes;
 mod derivatives;
@@ -20,6 +19,7 @@ mod exponentials;
 mod hold;
 mod march;
 mod model;
+mod perturbation;
 mod reduction;
 mod segment;
 mod setup;
@@ -28,9 +28,9 @@ mod system;
 mod view;
 mod writer;
 
-pub use along::force_along;
 pub use assembly::{has_exact_steps, has_force_in_time};
 pub use error::TransientError;
 pub use hold::Hold;
 pub use model::TransientModel;
+pub use perturbation::force_along;
 pub use setup::{SampledForces, StepLength, TransientParameter, TransientResponse, TransientSetup};

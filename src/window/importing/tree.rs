@@ -45,7 +45,7 @@ fn lines(draft: &Draft) -> Vec<Line> {
                 continue;
             }
         };
-        lines.extend(file.contents().notes.iter().map(|note| Line::Note(note.clone())));
+        lines.extend(file.contents().notes.iter().map(|note| Line::Note(note.text.clone())));
         for (s, set) in file.contents().sets.iter().enumerate() {
             if set.channels.len() == 1 {
                 lines.push(Line::Channel(f, s, 0));
@@ -54,7 +54,7 @@ fn lines(draft: &Draft) -> Vec<Line> {
             lines.push(Line::Set(f, s));
             if draft.unfolded.contains(&(f, s)) {
                 lines.extend((0..set.channels.len()).map(|c| Line::Channel(f, s, c)));
-                lines.extend(set.notes.iter().map(|note| Line::Note(note.clone())));
+                lines.extend(set.notes.iter().map(|note| Line::Note(note.text.clone())));
             }
         }
     }
@@ -151,6 +151,6 @@ fn tooltip(ui: &mut Ui, set: &Set, channel: &Channel) {
         ui.hint(format!("{word}: {value}"));
     }
     for note in set.notes.iter().take(4) {
-        ui.hint(note.as_str());
+        ui.hint(note.text.as_str());
     }
 }

@@ -74,7 +74,7 @@ pub(crate) fn open(path: &Path, matlab: bool) -> Read<(Contents, Box<dyn Source>
     let mut contents = Contents::new(if matlab { Format::Mat } else { Format::Hdf5 });
     contents.sets = sets;
     if contents.sets.is_empty() {
-        contents.notes.push("there is no data set of numbers".to_owned());
+        contents.notes.push("there is no data set of numbers".into());
     }
     Ok((contents, Box::new(TreeSource::new(Box::new(arrays), places))))
 }

@@ -105,7 +105,7 @@ fn give(set: &mut Set, columns: &mut [Column], found: &Found) -> bool {
     if let Some(array) = found.array.as_ref().filter(|_| any) {
         set.channels[found.channel].name =
             if alone { format!("time of {array}") } else { set.channels[found.channel].name.clone() };
-        set.notes.push(format!("the first column of {array} rises evenly: it is taken as the time in s"));
+        set.notes.push(format!("the first column of {array} rises evenly: it is taken as the time in s").into());
     }
     if any && set.kind == Kind::Table {
         let complex = set.channels.iter().any(|channel| channel.complex);

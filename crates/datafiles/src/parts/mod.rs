@@ -87,7 +87,7 @@ pub(crate) fn by_name(mut contents: Contents, source: Box<dyn Source>) -> Read<(
             conversions.push(conversion(s, set, *pair, &names, source.as_ref())?);
         }
         if let (true, Some(assumed)) = (!found.is_empty(), assumed_phase(&found, set, &names, &conversions)) {
-            set.notes.push(assumed);
+            set.notes.push(assumed.into());
         }
         any |= !found.is_empty();
         columns.push(joined(set, &found, &names, &conversions));

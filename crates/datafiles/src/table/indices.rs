@@ -33,7 +33,7 @@ mod tests {
             assert_eq!(names, ["Force", "Acceleration[1]", "Acceleration[2]"], "{rest}");
             assert!(set.channels.iter().all(|channel| channel.unit.is_empty()));
             assert!(set.channels.iter().all(|channel| channel.axis == Axis::Even { start: 0.0, step: 0.0025 }));
-            assert_eq!(set.notes, ["column 4 states Fs = 400 of all samples"]);
+            assert_eq!(set.notes, ["column 4 states Fs = 400 of all samples".into()]);
         }
         let (contents, _) = text::read(b"H [1],Coherence [1]\n1,2\n2,3\n5,1\n").unwrap();
         assert_eq!(contents.sets[0].channels[1].unit, "1");

@@ -6,14 +6,10 @@ use super::{header, indices, listed, number, wrapped};
 use crate::axis::{ascending, even_step, kind_of, unit_since_1970};
 use crate::contents::{Axis, Channel, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
+use crate::note::{Defect, Note};
 use crate::source::Source;
 use crate::tree::{Sampling, sampling};
 use uff::Values;
-
-/// How the note begins that the last row of a table ends early.
-pub const CUT_OFF: &str = "the file ends";
-/// How the note begins that times are not in order.
-pub const TIME_GOES_BACK: &str = "the time goes back";
 
 /// Values of a column.
 #[derive(Debug, Clone)]
@@ -84,10 +80,9 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     let (header, axis, said) = prepared(&mut block);
     let kind = axis.map_or(if header.step.is_some() { Kind::Time } else { Kind::Table }, |(_, kind)| kind);
     let mut set = Set::new(name, kind);
-    set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).cloned());
-    set.notes.extend(said);
-    set.notes.extend(ends_and_order(&header, &block, axis.is_some()));
-    set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)));
+    set.notes.extend(header.remarks.iter().filter(|line| !line.is_empty()).take(20).map(|line| line.as_str().into()));
+    set.notes.extend(said.into_iter().map(Note::from).chain(ends_and_order(&header, &block, axis.is_some())));
+    set.notes.extend(axis.and_then(|(at, _)| without_empty_ends(&mut block, at)).map(Note::from));
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
     if let Some((at, _)) = axis {
@@ -96,24 +91,26 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
             let counted = block.columns[at].re.first().copied().and_then(unit_since_1970);
             if let Some(unit) = counted {
                 unit.clone_into(&mut set.axis_unit);
-                set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}"));
+                set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}").into());
             }
         }
         if header.names[at].is_empty() {
-            set.notes.push(format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1));
+            let text = format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1);
+            set.notes.push(text.into());
         }
     }
     for (i, numbers) in block.columns.into_iter().enumerate() {
         if block.texts.contains(&i) || numbers.re.is_empty() && number::number(&header.names[i], false).is_some() {
             let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
-            set.notes.extend(block.texts.contains(&i).then(|| format!("\"{name}\" holds texts: it is no channel")));
+            let text = || format!("\"{name}\" holds texts: it is no channel").into();
+            set.notes.extend(block.texts.contains(&i).then(text));
             continue;
         }
         if axis.is_some_and(|(at, _)| at == i) || unused(&numbers, &header.names[i]) {
             continue;
         }
         if i == 0 && counts_rows(&numbers, &header.names[0]) {
-            set.notes.push("column 1 counts the rows: it is no channel and no time".to_owned());
+            set.notes.push("column 1 counts the rows: it is no channel and no time".into());
             continue;
         }
         // Some programs write the abscissa beside every channel.
@@ -125,10 +122,8 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
         let name = if header.names[i].is_empty() { format!("column {}", i + 1) } else { header.names[i].clone() };
         let mut channel = Channel::new(name, header.units[i].clone(), numbers.re.len() as u64);
         if numbers.gaps > 0 {
-            set.notes.push(format!(
-                "\"{}\" has {} empty cells between its numbers; they read as NaN",
-                channel.name, numbers.gaps
-            ));
+            let (name, gaps) = (&channel.name, numbers.gaps);
+            set.notes.push(format!("\"{name}\" has {gaps} empty cells between its numbers; they read as NaN").into());
         }
         channel.axis = match (&axis_values, header.step) {
             (Some(_), _) => Axis::Stored { step },
@@ -155,29 +150,33 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
 }
 
 /// Says that the table was cut off, or that its times are not in order.
-fn ends_and_order(header: &header::Header, block: &Block, has_axis: bool) -> Vec<String> {
+fn ends_and_order(header: &header::Header, block: &Block, has_axis: bool) -> Vec<Note> {
     let back = if has_axis || header.step.is_some() { None } else { goes_back(header, block) };
     cut_off(block).into_iter().chain(back).collect()
 }
 
 /// Says that the last row ends before those above it do, in a column that has a number in every other row.
-fn cut_off(block: &Block) -> Option<String> {
+fn cut_off(block: &Block) -> Option<Note> {
     let rows = block.rows;
     let short = |numbers: &Numbers| numbers.re.len() + 1 == rows && numbers.gaps == 0 && numbers.first == 0;
     let missing = block.columns.iter().skip(block.last_width).filter(|numbers| short(numbers)).count();
     (rows > 2 && missing > 0).then(|| {
         let (width, line) = (block.columns.len(), block.lines[1]);
-        format!("{CUT_OFF} in line {line}, which has {} of {width} cells", width - missing)
+        let text = format!("the file ends in line {line}, which has {} of {width} cells", width - missing);
+        Note::new(Defect::CutOff, text)
     })
 }
 
 /// Says where the times of a column of that name go back.
-fn goes_back(header: &header::Header, block: &Block) -> Option<String> {
+fn goes_back(header: &header::Header, block: &Block) -> Option<Note> {
     let of_time = |i: &usize| kind_of(&header.names[*i], &header.units[*i]) == Some(Kind::Time);
     let times = &block.columns[(0..block.columns.len().min(3)).find(of_time)?].re;
     let row = times.windows(2).position(|pair| pair[1] < pair[0])? + 1;
     let (now, before, line) = (times[row], times[row - 1], block.lines[0] + row as u64);
-    (times.len() == block.rows).then(|| format!("{TIME_GOES_BACK} in line {line}: {now} follows {before}"))
+    (times.len() == block.rows).then(|| {
+        let text = format!("the time goes back in line {line}: {now} follows {before}");
+        Note::new(Defect::TimeGoesBack, text)
+    })
 }
 
 /// Leaves out the first and last rows in which no column but the abscissa has a number; says how many.

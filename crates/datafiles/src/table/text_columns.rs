@@ -130,7 +130,7 @@ mod tests {
             let (contents, values) = of(&table);
             let names: Vec<&str> = contents.sets[0].channels.iter().map(|channel| channel.name.as_str()).collect();
             assert_eq!((names, values[0].len(), values[0][5]), (vec!["Force"], 6, 5.25), "{table}");
-            let told = contents.sets[0].notes.iter().any(|note| note.contains("\"State\" holds texts"));
+            let told = contents.sets[0].notes.iter().any(|note| note.text.contains("\"State\" holds texts"));
             assert!(told, "{:?}", contents.sets[0].notes);
         }
     }

@@ -11,6 +11,7 @@ mod values;
 
 use crate::contents::{Axis, Channel, Contents, FIRST, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read};
+use crate::note::not_read;
 use crate::source::Source;
 use crate::tree::{Sampling, sampling};
 use objects::{Object, Property};
@@ -18,8 +19,6 @@ use scale::Scaling;
 use std::path::{Path, PathBuf};
 use uff::Values;
 use values::Place;
-
-pub use segment::BROKEN_OFF;
 
 struct Tdms {
     path: PathBuf,
@@ -39,11 +38,11 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
         .unwrap_or_default();
     for group in objects.iter().filter(|object| object.path.len() == 1) {
         let mut set = Set::new(group.path[0].clone(), Kind::Table);
-        set.notes.extend(group.properties.iter().take(30).map(|(name, value)| format!("{name}: {value}")));
+        set.notes.extend(group.properties.iter().take(30).map(|(name, value)| format!("{name}: {value}").into()));
         let mut places = Vec::new();
         for object in objects.iter().filter(|object| object.path.len() == 2 && object.path[0] == group.path[0]) {
             if let Some(why) = &object.skipped {
-                set.notes.push(format!("\"{}\" is not read: {why}", object.path[1]));
+                set.notes.push(not_read(&object.path[1], why));
                 continue;
             }
             let scaling = [&object.properties[..], &group.properties, root]
@@ -52,7 +51,7 @@ pub(crate) fn open(path: &Path) -> Read<(Contents, Box<dyn Source>)> {
             let scaling = match scaling.unwrap_or(Ok(Scaling::default())) {
                 Ok(scaling) => scaling,
                 Err(what) => {
-                    set.notes.push(format!("\"{}\" is not read: {what}", object.path[1]));
+                    set.notes.push(not_read(&object.path[1], &what));
                     continue;
                 }
             };

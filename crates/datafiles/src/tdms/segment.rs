@@ -4,6 +4,7 @@ use super::input::Input;
 use super::objects::{Coding, Object, Run, names, property};
 use crate::bytes::Scalar;
 use crate::error::{Fault, Read};
+use crate::note::{Defect, Note};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufReader, Seek, SeekFrom};
@@ -16,8 +17,6 @@ const INTERLEAVED: u32 = 32;
 const BIG: u32 = 64;
 const DAQMX: u32 = 128;
 const LEAD: u64 = 28;
-/// How notes end of a file that stops before its last segment does.
-pub const BROKEN_OFF: &str = "the recording was broken off";
 /// Most objects of a file.
 const MOST_OBJECTS: usize = 1_000_000;
 /// Most scalers of a channel.
@@ -51,11 +50,11 @@ struct Reader {
     /// Newest index of each object.
     indices: Vec<Option<Index>>,
     active: Active,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 /// All objects of a file, and what the user should know of it.
-pub(super) fn objects(path: &Path) -> Read<(Vec<Object>, Vec<String>)> {
+pub(super) fn objects(path: &Path) -> Read<(Vec<Object>, Vec<Note>)> {
     let length = std::fs::metadata(path)?.len();
     let mut file = BufReader::new(File::open(path)?);
     let mut reader = Reader {
@@ -70,9 +69,14 @@ pub(super) fn objects(path: &Path) -> Read<(Vec<Object>, Vec<String>)> {
         at = reader.segment(&mut file, at, length)?;
     }
     if at < length {
-        reader.notes.push(format!("the last {} bytes are no whole segment: {BROKEN_OFF}", length - at));
+        reader.notes.push(broken_off(format!("the last {} bytes are no whole segment", length - at)));
     }
     Ok((reader.objects, reader.notes))
+}
+
+/// That a file stops before its last segment does, with what shows it.
+fn broken_off(shown_by: String) -> Note {
+    Note::new(Defect::BrokenOff, format!("{shown_by}: the recording was broken off"))
 }
 
 impl Reader {
@@ -92,7 +96,7 @@ impl Reader {
         let (next, raw) = (input.u64()?, input.u64()?);
         let end = if next == u64::MAX { length } else { at.saturating_add(LEAD).saturating_add(next) };
         if end > length {
-            self.notes.push(format!("the segment at byte {at} goes on behind the end of the file: {BROKEN_OFF}"));
+            self.notes.push(broken_off(format!("the segment at byte {at} goes on behind the end of the file")));
         }
         let end = end.min(length);
         if toc & META != 0 {

@@ -7,6 +7,7 @@ use super::decode::numbered;
 use crate::axis::even_step;
 use crate::contents::{Axis, Channel, Contents, Format, Kind, Set, first_numbers};
 use crate::error::{Fault, Read, one_line};
+use crate::note::Note;
 use crate::table::number::number;
 use crate::table::{Column, Columns, TableSource};
 use uff::Values;
@@ -259,9 +260,9 @@ impl Segment {
         };
         let mut set = Set::new(name, kind);
         set.axis_unit = self.value("X_Unit_Label", 0).unwrap_or(if kind == Kind::Time { "s" } else { "Hz" }).to_owned();
-        set.notes = std::mem::take(&mut self.comments);
+        set.notes = std::mem::take(&mut self.comments).into_iter().map(Note::from).collect();
         if let Some(notes) = self.value("Notes", 0) {
-            set.notes.push(notes.to_owned());
+            set.notes.push(notes.into());
         }
         let mut columns = Columns::default();
         let width = self.names.len() - usize::from(self.names.last().is_some_and(|name| name == "Comment"));

@@ -7,6 +7,7 @@ mod names;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
+use crate::note::Note;
 use crate::source::Source;
 use crate::table::{Blocks, TableSource, finish};
 pub(crate) use decode::decode;
@@ -41,7 +42,7 @@ pub(crate) fn read(bytes: &[u8]) -> Read<(Contents, Box<dyn Source>)> {
     }
     let (mut contents, source) =
         if text.trim_start().starts_with("LabVIEW Measurement") { lvm::read(text)? } else { table(text)? };
-    contents.notes.extend(note.map(str::to_owned));
+    contents.notes.extend(note.map(Note::from));
     Ok((contents, Box::new(source)))
 }
 
@@ -66,7 +67,7 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
     let letter = matches!(dialect.separator, Separator::Letter(_));
     let mut contents = Contents::new(if letter { Format::Csv } else { Format::Txt });
     if behind > 0 {
-        contents.notes.push(format!("{behind} lines of text follow the last numbers"));
+        contents.notes.push(format!("{behind} lines of text follow the last numbers").into());
     }
     let (sets, columns) = finish("", blocks);
     contents.sets = sets;

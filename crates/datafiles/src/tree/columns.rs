@@ -9,6 +9,7 @@ use super::timeseries::is_plain;
 use super::{Array, Cut, Entry};
 use crate::axis::kind_of;
 use crate::contents::{Axis, Channel, FIRST, Number, Set};
+use crate::note::not_read;
 use crate::parts::unit_of_part;
 use crate::units::suffix;
 
@@ -55,7 +56,7 @@ pub(super) fn add(
     let Columns { entry, array, .. } = *columns;
     let axis = axis.filter(|axis| array.shape.extents.contains(&axis.count));
     let Some(cut) = array.shape.cut(chosen.map(|(samples, _)| samples).or(axis.map(|axis| axis.count))) else {
-        note(set, format!("\"{}\" is not read: it would make too many channels; save it in pieces", entry.name));
+        note(set, not_read(&entry.name, "it would make too many channels; save it in pieces"));
         return;
     };
     let mut own = context;

@@ -4,6 +4,7 @@ use super::names::{self, Sampling};
 use super::{Entry, Node};
 use crate::contents::Set;
 use crate::error::one_line;
+use crate::note::Note;
 
 /// Most notes that are kept of a group.
 const MOST_NOTES: usize = 40;
@@ -39,8 +40,9 @@ impl Context {
 }
 
 /// A note on a set, of which only so many are kept.
-pub(super) fn note(set: &mut Set, text: String) {
+pub(super) fn note(set: &mut Set, note: impl Into<Note>) {
     if set.notes.len() < MOST_NOTES {
-        set.notes.push(one_line(&text, 160));
+        let note = note.into();
+        set.notes.push(Note { text: one_line(&note.text, 160), ..note });
     }
 }

@@ -65,11 +65,9 @@ pub(super) fn attach(
         let other = lists[1 - s].as_ref().map_or(1, Vec::len);
         let Some(place) = order(shape, list.len(), other, functions.len(), s == 0) else {
             let many = functions.len();
-            set.notes.push(format!(
-                "the {} {}s beside its {many} functions are not theirs one by one",
-                list.len(),
-                side
-            ));
+            set.notes.push(
+                format!("the {} {}s beside its {many} functions are not theirs one by one", list.len(), side).into(),
+            );
             continue;
         };
         for (k, &c) in functions.iter().enumerate() {
@@ -171,7 +169,7 @@ mod tests {
             .collect();
         assert_eq!(pairs, [(Some("2"), Some("8")), (Some("3"), Some("8")), (Some("5"), Some("8"))]);
         let set = found(4);
-        assert!(set.notes.iter().any(|note| note.contains("responses beside its 3 functions")), "{:?}", set.notes);
+        assert!(set.notes.iter().any(|note| note.text.contains("responses beside its 3 functions")), "{:?}", set.notes);
         assert!(set.channels.iter().all(|channel| channel.attribute("response").is_none()));
     }
 

@@ -239,7 +239,7 @@ mod tests {
                 );
                 let found = group.read();
                 assert_eq!(found.len(), 4, "{extents:?}");
-                assert!(found[0].0.notes[0].contains("4 tests of 3 channels"), "{:?}", found[0].0.notes);
+                assert!(found[0].0.notes[0].text.contains("4 tests of 3 channels"), "{:?}", found[0].0.notes);
                 for (test, (set, values)) in found.iter().enumerate() {
                     assert_eq!((set.name.clone(), set.channels.len()), (format!("test {}", test + 1), 3));
                     for (channel, values) in values.iter().enumerate() {

@@ -18,6 +18,7 @@ use super::{Array, Arrays, Entry, MOST_CHECKED, Node, Shape};
 use crate::axis::{ascending, even_step, kind_of, unit_of_time, unit_since_1970};
 use crate::contents::{Axis, Channel, FIRST, Kind, Set};
 use crate::error::Read;
+use crate::note::{Note, not_read};
 use crate::units::is_unit;
 
 /// Deepest groups that are looked into.
@@ -107,7 +108,7 @@ impl Made<'_> {
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
-                Node::Skipped(why) => note(&mut set, format!("\"{}\" is not read: {why}", entry.name)),
+                Node::Skipped(why) => note(&mut set, not_read(&entry.name, why)),
                 Node::Group(_) => {}
             }
         }
@@ -143,7 +144,7 @@ impl Made<'_> {
         over: (Context, Option<&Abscissa>),
         labels: &Labels,
         tests: &Repeated,
-        mut notes: Vec<String>,
+        mut notes: Vec<Note>,
     ) {
         let taken = entries
             .iter()
@@ -156,7 +157,7 @@ impl Made<'_> {
             })
             .collect();
         let column_major = arrays.first().is_some_and(|columns| columns.array.shape.column_major);
-        notes.insert(0, tests.note.clone());
+        notes.insert(0, tests.note.clone().into());
         for test in 0..tests.count() {
             let mut set = Set::new(tests.name(path, test, column_major), Kind::Table);
             set.notes = std::mem::take(&mut notes);

@@ -4,14 +4,14 @@
 use super::updated::REFITTED;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
-use crate::diagnosis::selection::exactness::{rubs, settings_for};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::solver_settings::{has_friction, settings_for};
 use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::Settings;
 
-/// Evidence that the linear fit of the updating parameters may still gain where they have settled: no decision hangs on less.
-pub(super) const SETTLED: f64 = 2.0;
+/// Evidence that the linear fit of the updating parameters may still gain where they have converged: no decision hangs on less.
+pub(super) const CONVERGED: f64 = 2.0;
 /// Share of what the linear fit promises below which a step is too slow to go on.
 const SLOW: f64 = 1e-3;
 /// Steps of a joint fit of effects and updating parameters.
@@ -19,13 +19,13 @@ const JOINT_STEPS: usize = 12;
 
 impl<'a> ReferenceModel<'a> {
     /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
-    pub(super) fn settled_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    pub(super) fn converged_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let mut reference = self;
         let mut here = reference.cost_at_reference(&reference.predictions);
         for _ in 0..rounds {
             let linear =
                 sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
-            if here - linear < SETTLED || reference.control.is_late() {
+            if here - linear < CONVERGED || reference.control.is_late() {
                 break;
             }
             let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
@@ -45,7 +45,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The model and the effects of `fit` moved in turn until neither moves any more: until the updating parameters at the
     /// reference leave what their linear fit leaves.
-    pub(crate) fn settled(
+    pub(crate) fn converged(
         self,
         fit: FittedModel,
         settings: &Settings,
@@ -53,12 +53,12 @@ impl<'a> ReferenceModel<'a> {
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let settings = settings_for(&fit, self.count(), settings);
         // What friction leaves depends on the number of harmonics.
-        let fit = if rubs(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
+        let fit = if has_friction(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
         let (mut reference, mut fit) = (self, fit);
         let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {
             let linear = fit.chi_square + reference.noise.cost();
-            if here - linear < SETTLED || reference.control.is_late() {
+            if here - linear < CONVERGED || reference.control.is_late() {
                 break;
             }
             let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
@@ -81,5 +81,5 @@ impl<'a> ReferenceModel<'a> {
 
 /// Least gain of a step towards a linear fit that promises `more`.
 fn slowest(more: f64) -> f64 {
-    (SLOW * more).max(0.5 * SETTLED)
+    (SLOW * more).max(0.5 * CONVERGED)
 }

@@ -1,4 +1,4 @@
-//! The runs that tell most, where there are many: neighbours on a curve of response say the same again, and every candidate is
+//! The most informative runs, where there are many: neighbours on a curve of response say the same again, and every candidate is
 //! fitted to every run.
 //!
 //! Of each session, whose runs follow one another in frequency, those are taken that lie evenly along its curve in the plane of
@@ -15,7 +15,7 @@ const FEWEST: usize = 4;
 
 /// The same data with the runs that tell most; none where there are no more than [`MOST`], and of frequency responses, whose
 /// lines are chosen as they are read.
-pub(crate) fn telling(data: &Data) -> Option<Data> {
+pub(crate) fn informative_runs(data: &Data) -> Option<Data> {
     if data.per_unit_force || data.runs.len() <= MOST {
         return None;
     }
@@ -99,12 +99,12 @@ mod tests {
     #[test]
     fn lines_of_a_resonance_are_taken_where_it_turns() {
         let all = resonance();
-        let few = telling(&all).map(|data| data.runs).unwrap_or_default();
+        let few = informative_runs(&all).map(|data| data.runs).unwrap_or_default();
         assert_eq!(few.len(), MOST);
         let within = |runs: &[RunData]| runs.iter().filter(|run| (run.omega - 10.0).abs() < 0.21).count();
         assert_eq!(within(&all.runs), 21);
         assert!(within(&few) >= 19, "of the half-power circle {}", within(&few));
         let lean = Data { runs: all.runs[..MOST].to_vec(), ..all };
-        assert!(telling(&lean).is_none());
+        assert!(informative_runs(&lean).is_none());
     }
 }

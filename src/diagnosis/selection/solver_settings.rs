@@ -12,7 +12,7 @@ const COARSE: f64 = 10.0;
 /// How exactly responses with the effects of `fit`, to so many data, are computed: friction that sticks in a part of the cycle
 /// takes many harmonics, and even more where it leaves so little that their truncation would show.
 pub(super) fn settings_for<'s>(fit: &FittedModel, count: usize, settings: &'s Settings) -> &'s Settings {
-    match rubs(&fit.effects) {
+    match has_friction(&fit.effects) {
         true if fit.chi_square < COARSE * count as f64 => &FINAL,
         true => &RUBBING,
         false => settings,
@@ -20,6 +20,6 @@ pub(super) fn settings_for<'s>(fit: &FittedModel, count: usize, settings: &'s Se
 }
 
 /// Whether there is friction among `effects`.
-pub(super) fn rubs(effects: &[Source]) -> bool {
+pub(super) fn has_friction(effects: &[Source]) -> bool {
     effects.iter().any(|e| friction(e.effect).is_some())
 }

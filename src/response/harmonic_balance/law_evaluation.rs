@@ -17,11 +17,11 @@
 
 use super::fourier::{Fourier, differentiate, to_complex};
 use super::friction;
-use super::nonlinear_leg::{Answer, NonlinearLeg, add_velocity_columns};
+use super::nonlinear_leg::{LawEvaluation, NonlinearLeg, add_velocity_columns};
 use crate::effects::law::Variable;
 use crate::effects::{Manner, Motion, Steep};
 
-/// Answer of a law at one instant: value and slopes by the leg's own force, displacement and velocity.
+/// What a law gives at one instant: value and slopes by the leg's own force, displacement and velocity.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Instant {
     pub value: f64,
@@ -89,10 +89,10 @@ impl NonlinearLeg {
     }
 
     /// `Phi` with its derivatives.
-    pub(crate) fn answer(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> Answer {
+    pub(crate) fn evaluate(&self, fourier: &Fourier, omega: f64, force: &[f64], motion: &[f64]) -> LawEvaluation {
         match self.manner() {
-            Manner::Memory => return self.memory_answer(fourier, omega, motion),
-            Manner::SetValued => return friction::answer(self, fourier, omega, force, motion),
+            Manner::Memory => return self.evaluate_memory(fourier, omega, motion),
+            Manner::SetValued => return friction::evaluate(self, fourier, omega, force, motion),
             Manner::Linear | Manner::Pointwise | Manner::Steep => {}
         }
         let [f, d, v] = self.histories(fourier, omega, force, motion);
@@ -111,10 +111,10 @@ impl NonlinearLeg {
         if slopes.iter().any(|&s| s != 0.0) {
             add_velocity_columns(&mut by_motion, &fourier.multiplier(&slopes), omega, fourier);
         }
-        Answer { value, by_force, by_motion }
+        LawEvaluation { value, by_force, by_motion }
     }
 
-    fn memory_answer(&self, fourier: &Fourier, omega: f64, motion: &[f64]) -> Answer {
+    fn evaluate_memory(&self, fourier: &Fourier, omega: f64, motion: &[f64]) -> LawEvaluation {
         let width = fourier.width();
         let sampled_motion = sampled(fourier, omega, motion);
         let (mut samples, mut column) = (vec![0.0; fourier.samples()], vec![0.0; width]);
@@ -132,7 +132,7 @@ impl NonlinearLeg {
                 by_motion[row * width + k] = *c;
             }
         }
-        Answer { value, by_force: None, by_motion }
+        LawEvaluation { value, by_force: None, by_motion }
     }
 
     /// Derivative of `Phi` by parameter `k`, force and motion held.

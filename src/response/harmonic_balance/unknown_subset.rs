@@ -3,7 +3,7 @@
 use super::condense::Condensed;
 
 /// Unknowns that are solved for together.
-pub(crate) struct Kept {
+pub(crate) struct UnknownSubset {
     /// Their indices, rising.
     pub indices: Vec<usize>,
     /// Number of each unknown among them; [`DROPPED`] for the others.
@@ -19,7 +19,7 @@ pub(crate) struct Kept {
 /// No number.
 pub(crate) const DROPPED: usize = usize::MAX;
 
-impl Kept {
+impl UnknownSubset {
     /// All unknowns.
     pub(crate) fn all(condensed: &Condensed) -> Self {
         Self::of(condensed, |_| true)

@@ -1,4 +1,4 @@
-//! Errors on all runs of what was found on those that tell most.
+//! Errors on all runs of what was found on the most informative ones.
 
 use super::channels::mended;
 use crate::control::Control;
@@ -13,7 +13,7 @@ use crate::effects::Source;
 use std::sync::Arc;
 
 /// A diagnosis with the errors of its steps, and of the effects that are added, on `all` runs.
-pub(super) fn told(
+pub(super) fn with_errors(
     problem: &Problem,
     all: &Data,
     mut diagnosis: Diagnosis,

@@ -17,7 +17,7 @@ const UNNAMED: f64 = 0.01;
 const SURE: f64 = 0.5;
 
 /// Joins what a search in steady runs and one in records found; either alone where the other one suggests nothing.
-pub(crate) fn together(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
+pub(crate) fn combined(steady: Diagnosis, records: Diagnosis) -> Diagnosis {
     if records.suggestions.is_empty() {
         return Diagnosis { complete: steady.complete && records.complete, ..steady };
     }
@@ -102,19 +102,12 @@ mod tests {
             indistinguishable_from: Vec::new(),
         };
         let first = list.iter().map(|(effect, dof, _)| added(*effect, *dof)).take(1).collect();
+        let step = Step { added: first, error: 0.1, misfit: 1.0 };
         Diagnosis {
             error_before: 0.5,
-            noise_floor: 0.01,
             verdict: if list.is_empty() { Verdict::Adequate } else { Verdict::Undecided },
             suggestions: list.iter().map(suggestion).collect(),
-            steps: vec![Step { added: first, error: 0.1, misfit: 1.0 }],
-            next_test: Vec::new(),
-            corrections: Vec::new(),
-            channel_faults: Vec::new(),
-            records: None,
-            test_errors: None,
-            complete: true,
-            runs: Vec::new(),
+            ..Diagnosis::adequate(step, 0.01)
         }
     }
 
@@ -123,7 +116,7 @@ mod tests {
     fn what_neither_tells_alone_both_tell_together() {
         let runs = found(&[(Effect::Viscous, 3, 0.5), (Effect::Quadratic, 3, 0.5)]);
         let records = found(&[(Effect::Quadratic, 2, 0.55), (Effect::Quadratic, 3, 0.45)]);
-        let both = together(runs, records);
+        let both = combined(runs, records);
         let first = &both.suggestions[0];
         let wanted = Source::known(Effect::Quadratic, Place::Dofs(vec![3]), &[1.0]);
         assert!(first.added.source.is_same(&wanted), "{:?}", first.added.source);
@@ -136,7 +129,7 @@ mod tests {
     #[test]
     fn who_sees_nothing_says_nothing() {
         let runs = found(&[(Effect::Coulomb, 1, 0.8)]);
-        assert_eq!(together(runs.clone(), found(&[])), runs);
-        assert_eq!(together(found(&[]), runs.clone()), runs);
+        assert_eq!(combined(runs.clone(), found(&[])), runs);
+        assert_eq!(combined(found(&[]), runs.clone()), runs);
     }
 }

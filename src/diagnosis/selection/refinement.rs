@@ -1,17 +1,17 @@
-//! Candidates beside updating parameters: laws regressed at the measured motion, each followed with a model of its own.
+//! Candidates beside updating parameters: laws regressed at the measured motion, each refined with a model of its own.
 
 use super::search::{View, joined};
-use super::short_list::{Breadth, needed};
+use super::short_list::{Breadth, without_falling_friction};
 use super::weighing::{bound_beside, cost};
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::localisation::free_force::BesideWhole;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;
-use crate::diagnosis::selection::exactness::settings_for;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Effect, Kind, Place, Source, State};
@@ -21,24 +21,24 @@ use crate::response::sensitivity::Unknown;
 use faer::c64;
 use std::sync::Arc;
 
-/// Most candidates that are followed.
+/// Most candidates that are refined.
 const FOLLOWED: usize = 8;
 /// Most of one place.
 const AT_ONE_PLACE: usize = 4;
-/// Scaled score beyond the best up to which candidates are followed.
+/// Scaled score beyond the best up to which candidates are refined.
 const MARGIN: f64 = 60.0;
-/// Squared residual per datum of the best from which on candidates of twice that are followed too: what it leaves beyond the
-/// noise is the error of the motion between the sensors, which is no law's. Linear laws are followed in no time.
+/// Squared residual per datum of the best from which on candidates of twice that are refined too: what it leaves beyond the
+/// noise is the error of the motion between the sensors, which is no law's. Linear laws are refined in no time.
 const COARSE: f64 = 3.0;
 const COARSE_FOR_LINEAR: f64 = 1.5;
-/// Best sets whose limits are followed too, and how many times their score those may leave.
+/// Best sets whose limits are refined too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
-/// Candidates that are followed to the end.
+/// Candidates that are refined to the end.
 const FINALISTS: usize = 4;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
-/// Share of the squared residual of the stated model which a law of the whole structure may leave beside it to be followed from
+/// Share of the squared residual of the stated model which a law of the whole structure may leave beside it to be refined from
 /// there: a model that is off in frequency by some per cent leaves about as much with as without it.
 const STANDS_OUT: f64 = 0.2;
 /// How many times what its regression promised a candidate may leave before shorter steps of the model beside it are tried, and
@@ -50,53 +50,53 @@ const SHARES: [f64; 3] = [0.3, 0.1, 0.0];
 const BROUGHT: f64 = 0.5;
 
 impl<'a> ReferenceModel<'a> {
-    /// The candidates among `unfitted`, regressed beside the model as it is, that are worth following, each fitted with a model
+    /// The candidates among `unfitted`, regressed beside the model as it is, that are worth refining, each fitted with a model
     /// updated beside it.
-    pub(crate) fn followed(
+    pub(crate) fn refined(
         &self,
         unfitted: Vec<UnfittedSet>,
     ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
-        let unfitted = promising(needed(unfitted), self.count());
+        let unfitted = promising(without_falling_friction(unfitted), self.count());
         let mut view = self.view(None)?;
         let mut targets = Vec::with_capacity(unfitted.len());
         for unfitted in &unfitted {
             targets.push(self.updated_beside(&mut view, unfitted)?);
         }
         drop(view);
-        self.all_followed(unfitted.len(), f64::INFINITY, |k| {
-            self.followed_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH))
+        self.all_refined(unfitted.len(), f64::INFINITY, |k| {
+            self.refined_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH))
         })
     }
 
     /// The law of the whole structure that explains most beside this model, which is as it was stated, with the model then updated
     /// beside it; none where even that leaves much. Free forces at one place stand for damping everywhere so badly that the model
     /// localised beside them may be far off any in which the law would be seen.
-    pub(crate) fn followed_whole(&self, before: f64) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+    pub(crate) fn refined_whole(&self, before: f64) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let fits = self.whole(None, STEPS)?;
         let best = fits.into_iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         let Some(fit) = best.filter(|fit| fit.chi_square < STANDS_OUT * before) else { return Ok(Vec::new()) };
-        Ok(if_possible(self.followed_from(&fit))?.into_iter().collect())
+        Ok(if_possible(self.refined_from(&fit))?.into_iter().collect())
     }
 
     /// The effects of `fit`, which is beside this model as it was stated, with a model updated beside them.
-    fn followed_from(&self, fit: &FittedModel) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+    fn refined_from(&self, fit: &FittedModel) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
         let reference = self.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;
         let fit = reference.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)?;
-        reference.settled(fit, &SEARCH, UPDATES)
+        reference.converged(fit, &SEARCH, UPDATES)
     }
 
-    /// `count` candidates followed a little, the best of them to the end; none whose evidence is not below `bound` by then.
-    fn all_followed<'s>(
+    /// `count` candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then.
+    fn all_refined<'s>(
         &self,
         count: usize,
         bound: f64,
-        follow: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
+        refine: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
     ) -> Result<Vec<(ReferenceModel<'s>, FittedModel)>, DiagnosisError> {
         // What further effects there are is worth no more time than there is.
         let begin = |k: usize| {
-            if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(follow(k)) }
+            if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(refine(k)) }
         };
         let begun = self.control.map(count, begin).into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut begun: Vec<_> = begun.into_iter().flatten().filter(|(r, fit)| cost(r, Some(fit)) < bound).collect();
@@ -106,7 +106,7 @@ impl<'a> ReferenceModel<'a> {
         let rest = begun.split_off(finalists.count());
         let further = |k: usize| {
             let (reference, fit) = &begun[k];
-            reference.with_scales(reference.linearisation.updating.scales).settled(fit.clone(), &SEARCH, UPDATES - 1)
+            reference.with_scales(reference.linearisation.updating.scales).converged(fit.clone(), &SEARCH, UPDATES - 1)
         };
         let mut fits = self.control.map(begun.len(), further).into_iter().collect::<Result<Vec<_>, _>>()?;
         fits.extend(rest);
@@ -115,7 +115,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The candidates for one effect beside those of `from`, each fitted with a model updated beside it; none where none
     /// would bring `evidence`.
-    pub(crate) fn followed_beside(
+    pub(crate) fn refined_beside(
         &self,
         from: &FittedModel,
         evidence: f64,
@@ -126,16 +126,16 @@ impl<'a> ReferenceModel<'a> {
         drop(view);
         unfitted.retain(|d| d.score < bound);
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let unfitted = promising(needed(unfitted), self.count());
+        let unfitted = promising(without_falling_friction(unfitted), self.count());
         // On the same footing as what they are beside.
         let settings = settings_for(from, self.count(), &SEARCH);
-        self.all_followed(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
-            self.followed_set(&unfitted[k], None, (&from.effects, settings))
+        self.all_refined(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
+            self.refined_set(&unfitted[k], None, (&from.effects, settings))
         })
     }
 
     /// A candidate fitted on the response, then with the updating parameters beside it, which start at `target`.
-    fn followed_set(
+    fn refined_set(
         &self,
         unfitted: &UnfittedSet,
         target: Option<&[f64]>,
@@ -159,7 +159,7 @@ impl<'a> ReferenceModel<'a> {
             }
             _ => whole,
         };
-        reference.settled(fit, &SEARCH, 1)
+        reference.converged(fit, &SEARCH, 1)
     }
 
     /// The laws of the whole structure, regressed at the measured motion beside the updating parameters as free forces at one

@@ -51,7 +51,11 @@ pub(super) fn groups(data: &Data) -> Vec<usize> {
 impl ReferenceModel<'_> {
     /// Logarithm of the predictive density of each group of runs, left out of the fit of `fit` (none: corrections
     /// alone).
-    pub(super) fn left_out(&self, fit: Option<&FittedModel>, groups: &[usize]) -> Result<Vec<f64>, DiagnosisError> {
+    pub(super) fn cross_validated(
+        &self,
+        fit: Option<&FittedModel>,
+        groups: &[usize],
+    ) -> Result<Vec<f64>, DiagnosisError> {
         let (variables, theta) = Variables::new(fit.map_or(&[], |fit| &fit.effects));
         let (estimator, starts) = (self.estimator(), fit.map_or_else(Vec::new, |fit| fit.starts.clone()));
         let mut problem = OnResponse { estimator, variables: &variables, settings: FINAL, starts, last: None };

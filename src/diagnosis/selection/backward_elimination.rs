@@ -1,0 +1,206 @@
+//! Backward elimination, the other half of stepwise regression: effects that a set no longer needs, for what brought their evidence was
+//! another effect that came later, the model moved beside it, or a lower local minimum of those that were there before.
+
+use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::found::{EVIDENCE, FittedSets, Found, agrees, distinct, nearly};
+use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::updated::REFITTED;
+use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
+use crate::effects::Source;
+
+/// Rounds in which a model converges beside the effects that are left when another is taken away.
+const UPDATES: usize = 6;
+
+/// The effects of `from`, whose evidence is `least`, in the model of the best of the candidates for one effect more, where they have
+/// their evidence there without it: what it brought was a lower local minimum of the same effects, such as other branches of a
+/// resonance.
+pub(super) fn without_addition<'a>(
+    candidates: &[(ReferenceModel<'a>, FittedModel)],
+    from: &FittedModel,
+    least: f64,
+) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    let evidence = |(reference, fit): &(ReferenceModel, FittedModel)| cost(reference, Some(fit));
+    let best = candidates.iter().min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
+    let Some((reference, fit)) = best else { return Ok(None) };
+    let is_known = |effect: &&Source| from.effects.iter().any(|known| known.is_same(effect));
+    let same: Vec<Source> = fit.effects.iter().filter(is_known).cloned().collect();
+    if same.len() < from.effects.len() {
+        return Ok(None);
+    }
+    let own = reference.with_scales(reference.linearisation.updating.scales);
+    let begun = own.estimator().fit(&same, REFITTED, &SEARCH, &fit.starts)?;
+    if cost(&own, Some(&begun)) > least - EVIDENCE {
+        return Ok(None);
+    }
+    let better = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])?;
+    Ok(better.filter(|better| better.fits[0].effects.len() == same.len() && better.least < least - EVIDENCE))
+}
+
+/// Drops effects that the last set of a search no longer needs, now that the others are there.
+pub(super) fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
+    while let Some(best) =
+        found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone()).filter(|r| r.effects.len() > 1)
+    {
+        let mut fits = Vec::new();
+        for k in 0..best.effects.len() {
+            let mut fewer = best.effects.clone();
+            fewer.remove(k);
+            fits.push(reference.estimator().fit(&fewer, 10, &FINAL, &best.starts)?);
+        }
+        let (fits, noise) = reference.polished(reference.ranked(fits))?;
+        let enough = |r: &FittedModel| reference.evidence(r, 1.0) < reference.evidence(&best, 1.0) + EVIDENCE;
+        let Some(first) = fits.first().filter(|r| enough(r)) else { break };
+        found.agrees = agrees(reference, first.chi_square, first.parameters) || nearly(reference, first, found.before);
+        found.by_size.pop();
+        let scale = scale_of(&fits, reference.count());
+        let before = found.by_size.pop().map_or_else(Vec::new, |fitted_sets| fitted_sets.fits);
+        let fits = distinct(reference.ranked(fits.into_iter().chain(before).collect()));
+        found.by_size.push(FittedSets { probabilities: reference.probabilities(&fits), fits, scale, noise });
+    }
+    Ok(())
+}
+
+/// The model without the effects of the last set of a search that have a parameter which the data do not know, and without which what
+/// corrections do instead has no less evidence: the model converges beside the others, for corrections beside the whole set are not
+/// those beside fewer.
+pub(super) fn without_open<'a>(
+    reference: ReferenceModel<'a>,
+    found: &mut Found,
+) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    let mut reference = reference;
+    while let Some(best) = found.by_size.last().map(|sets| sets.fits[0].clone()).filter(|fit| fit.effects.len() > 1) {
+        let open = |k: &usize| is_open(&best.deviations[*k], &best.effects[*k]);
+        let Some(k) = (0..best.effects.len()).find(open).filter(|_| !reference.control.is_late()) else { break };
+        let mut fewer = best.effects.clone();
+        fewer.remove(k);
+        let own = reference.with_scales(reference.linearisation.updating.scales);
+        let begun = own.estimator().fit(&fewer, REFITTED, &SEARCH, &best.starts)?;
+        let Some(weighed) = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])? else { break };
+        if weighed.least > cost(&reference, Some(&best)) + EVIDENCE || weighed.fits[0].effects.len() != fewer.len() {
+            break;
+        }
+        found.by_size.pop();
+        found.by_size.retain(|sets| sets.fits[0].effects.len() < fewer.len());
+        (reference, _) = weighed.taken_into(found);
+    }
+    Ok(reference)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::{source, three_masses};
+    use crate::common::runs::{channel, run};
+    use crate::control::Control;
+    use crate::diagnosis::Problem;
+    use crate::diagnosis::residual::data::Data;
+    use crate::diagnosis::residual::prediction::Predictor;
+    use crate::diagnosis::result::Suggestion;
+    use crate::diagnosis::updating::parameters::Updating;
+    use crate::effects::{Effect, Source};
+    use crate::measurement::{Quantity, Run};
+    use crate::response::harmonic_balance::{Excitation, ForwardModel};
+    use faer::c64;
+    use std::sync::Arc;
+
+    fn known() -> Source {
+        source(Effect::Viscous, &[0], &[0.8])
+    }
+
+    fn hidden() -> Source {
+        source(Effect::CubicStiffness, &[2], &[4e6])
+    }
+
+    /// Runs at two levels about the first mode of a chain whose ground spring is 2 % stiffer than stated and which hides a cubic spring.
+    fn runs() -> Vec<Run> {
+        let (structure, deviation) = (three_masses([1.02, 1.0, 1.0]), 1e-7);
+        let model = ForwardModel::new(&structure, &[known()]).unwrap();
+        let measured_run = |(omega, force): (f64, f64)| {
+            let amplitude = c64::new(force, 0.0);
+            let excitation = Excitation::sine(omega, 2, amplitude);
+            let (sources, control) = ([known(), hidden()], Control::unattended());
+            let response = model.at(omega).respond(&sources, &excitation, &FINAL, None, &control).unwrap();
+            let motion = |dof: usize| (1..=3).map(|h| response.amplitude(dof, h)).collect();
+            let zero = c64::new(0.0, 0.0);
+            let mut channels = vec![channel(Quantity::Force, 2, vec![amplitude, zero, zero], deviation)];
+            channels.extend((0..3).map(|dof| channel(Quantity::Displacement, dof, motion(dof), deviation)));
+            run(format!("{omega} rad/s, {force} N"), omega, channels)
+        };
+        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(measured_run).collect()
+    }
+
+    /// Does a test with the model as it is stated, linearised beside `effects`.
+    fn with_stated<T>(effects: &[Source], test: impl FnOnce(ReferenceModel) -> T) -> T {
+        let (stated, sources, runs) = (three_masses([1.0; 3]), vec![known()], runs());
+        let data = Data::new(&Problem { structure: &stated, sources: &sources, runs: &runs }).unwrap();
+        let predictor = Arc::new(Predictor::new(&stated, sources.clone(), &data).unwrap());
+        let (control, early) = (Control::unattended(), |_: &[Suggestion]| {});
+        let model = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
+        test(model.updated(&Updating::all(&stated, &sources, &data), effects, &Vec::new()).unwrap())
+    }
+
+    /// The effects that are left of a set of which the data know the parameters of those in `open` not, and the factor on the ground
+    /// spring of the model beside them.
+    fn left_of(effects: &[Source], open: &[usize]) -> (Vec<Source>, f64) {
+        with_stated(effects, |reference| {
+            let mut fit = reference.estimator().fit(effects, REFITTED, &SEARCH, &Vec::new()).unwrap();
+            open.iter().for_each(|&k| fit.deviations[k].fill(f64::NAN));
+            let noise = reference.noise.clone();
+            let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
+            let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
+            let converged = without_open(reference, &mut found).unwrap();
+            let structure = converged.linearisation.updating.structure(converged.predictor.stated().0);
+            let ground = structure.matrices().unwrap().stiffness[(0, 0)] - 1e4;
+            (found.by_size.pop().unwrap().fits.remove(0).effects, ground / 2e4)
+        })
+    }
+
+    /// The model has converged beside what is left: its spring has moved to where the records have it.
+    #[test]
+    fn an_effect_that_the_data_do_not_know_goes_from_a_set_and_the_model_settles() {
+        let idle = source(Effect::Coulomb, &[1], &[1e-6]);
+        let (left, ground) = left_of(&[hidden(), idle], &[1]);
+        assert!(matches!(left.as_slice(), [only] if only.is_same(&hidden())), "{left:?}");
+        assert!((left[0].parameters[0] / 4e6 - 1.0).abs() < 0.02, "{left:?}");
+        assert!((ground - 1.02).abs() < 2e-3, "{ground}");
+    }
+
+    #[test]
+    fn an_effect_that_corrections_cannot_stand_for_stays() {
+        let dashpot = source(Effect::Viscous, &[1], &[1e-3]);
+        assert_eq!(left_of(&[hidden(), dashpot], &[0]).0.len(), 2);
+    }
+
+    /// The hidden spring and an idle effect more, in the model that has converged beside them: the spring alone has the evidence that it
+    /// lacks in the model as it is stated. Where it has that evidence already, or is not among the effects, there is nothing to take.
+    #[test]
+    fn what_one_effect_more_brought_by_another_minimum_is_taken_without_it() {
+        with_stated(&[hidden()], |stated| {
+            let fitted = |reference: &ReferenceModel, effects: &[Source]| {
+                reference.estimator().fit(effects, REFITTED, &SEARCH, &Vec::new()).unwrap()
+            };
+            let from = fitted(&stated, &[hidden()]);
+            let before = cost(&stated, Some(&from));
+            let idle = source(Effect::Coulomb, &[1], &[1e-6]);
+            let (converged, only) = stated.converged(from.clone(), &SEARCH, UPDATES).unwrap();
+            let least = cost(&converged, Some(&only));
+            assert!(least < before - EVIDENCE, "{least} {before}");
+            let more = fitted(&converged, &[hidden(), idle.clone()]);
+            let another = fitted(&converged, &[idle]);
+            let candidates = [(converged, more)];
+            let taken = without_addition(&candidates, &from, before).unwrap().unwrap();
+            assert!(
+                matches!(taken.fits[0].effects.as_slice(), [only] if only.is_same(&hidden())),
+                "{:?}",
+                taken.fits[0]
+            );
+            assert!(taken.least < before - EVIDENCE, "{} {before}", taken.least);
+            assert!(without_addition(&candidates, &from, least).unwrap().is_none());
+            let [(converged, _)] = candidates;
+            assert!(without_addition(&[(converged, another)], &from, before).unwrap().is_none());
+        });
+    }
+}
