@@ -17,9 +17,9 @@ use std::f64::consts::TAU;
 const MOST_MODES: usize = 8;
 /// Frequency over that of the last mode that is followed from which on motion is not that of these modes.
 const ABOVE: f64 = 2.0;
-/// Frequency of a mode over that of the highest peak of the records up to which it is the one that is seen there, however near Nyquist's
-/// frequency that is: a model that is off by some per cent would have it on either side of a limit.
-const SEEN_AT: f64 = 1.1;
+/// Frequency of a mode over the limit of those that are followed up to which a decay is asked whether it shows it: a model that is off
+/// by some per cent has it on either side of any limit.
+const BESIDE_LIMIT: f64 = 1.2;
 /// Sampling rate over the highest frequency of motion that is enough: it holds the harmonics of a law that is not linear, and
 /// steps of the model lose no phase over some hundred periods.
 const OVERSAMPLED: f64 = 20.0;
@@ -284,9 +284,9 @@ impl RecordData {
 fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
     let top = list.iter().map(|r| r.highest_hz).fold(0.0, f64::max);
     let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
-    let limit = (1.5 * top).min(nyquist.max(SEEN_AT * top));
+    let limit = (1.5 * top).min(nyquist);
     let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
-    let shown = list.iter().map(|r| r.shown(modes, below, MOST_MODES)).max().unwrap_or(0);
+    let shown = list.iter().map(|r| r.shown(modes, below, MOST_MODES, BESIDE_LIMIT * limit)).max().unwrap_or(0);
     below.max(shown).clamp(1, MOST_MODES).min(modes.len())
 }
 
@@ -367,4 +367,34 @@ fn different(records: &[RecordData]) -> Vec<Channel> {
         }
     }
     list
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::chain;
+    use crate::common::runs::decay;
+
+    /// A mode that rings for a moment at one and a half times the frequency of the last that stands out is followed by models that have
+    /// it on either side of that.
+    #[test]
+    fn a_mode_that_a_decay_shows_is_followed_by_models_that_are_off() {
+        let with_stiffness =
+            |factor: f64| chain(&[2.0, 1.0, 1.5], &[800.0 * factor, 0.0, 0.0], &[1500.0 * factor, 900.0 * factor]);
+        let truth = with_stiffness(1.0).modes().unwrap();
+        let (step, damping) = (5e-3, [0.1, 0.1, 6.0]);
+        let omega = [truth.omega[0], truth.omega[2] / 1.5, truth.omega[2]];
+        let wave = |n: usize, dof: usize| -> f64 {
+            let t = step * n as f64;
+            let mode = |r: usize| 1e-2 * truth.shapes[(dof, r)] * (-damping[r] * t).exp() * (omega[r] * t).cos();
+            (0..3).map(mode).sum()
+        };
+        let run = decay(step, (0..3).map(|dof| (0..4000).map(|n| wave(n, dof)).collect()).collect());
+        for factor in [0.96, 1.0, 1.04] {
+            let structure = with_stiffness(factor);
+            let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+            assert_eq!(records.kept, 3, "stiffness times {factor}");
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Modes that a driven record shows for a moment only: one that is damped by some percent rings for a few milliseconds after a
+//! Modes that a record shows for a moment only: one that is damped by some percent rings for a few milliseconds after a
 //! blow, no peak in the spectrum of the whole record, yet far above the noise while it lasts. What is not followed counts as
 //! noise, so that such a mode would hide all that is to be found.
 
@@ -18,11 +18,12 @@ const LOUD: f64 = 32.0;
 const HELD: f64 = 0.4;
 
 impl RecordData {
-    /// Number of modes up to the highest that a driven record plainly shows, looked for from number `from` to `to`; 0 where it shows none
-    /// of them.
-    pub(super) fn shown(&self, modes: &Modes, from: usize, to: usize) -> usize {
-        let driven = !self.forces.is_empty();
-        (from..to.min(modes.len())).rev().find(|&r| driven && shows(self, modes, r)).map_or(0, |r| r + 1)
+    /// Number of modes up to the highest that the record plainly shows, looked for from number `from` to `to`, of a decay up to `most_hz`;
+    /// 0 where it shows none of them.
+    pub(super) fn shown(&self, modes: &Modes, from: usize, to: usize, most_hz: f64) -> usize {
+        let most = if self.forces.is_empty() { TAU * most_hz } else { f64::INFINITY };
+        let mut numbers = (from..to.min(modes.len())).rev().filter(|&r| modes.omega[r] <= most);
+        numbers.find(|&r| shows(self, modes, r)).map_or(0, |r| r + 1)
     }
 }
 

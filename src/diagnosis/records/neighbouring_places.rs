@@ -12,6 +12,8 @@ use crate::effects::{Place, Source};
 
 /// Places next to that of the best at which its law is begun.
 const BESIDE: usize = 3;
+/// What a start leaves over what the best fit does up to which it is fitted though its effects were given up: that fit had ended elsewhere.
+const NEAR: f64 = 2.0;
 /// Most steps along the structure by which the law of the best fit is moved to where it leaves less.
 const MOVED: usize = 3;
 
@@ -40,18 +42,9 @@ impl Search<'_> {
     /// The best of `found` with its last law moved to the places next to its own, the [`BESIDE`] that would leave least to first order.
     fn begun_next_to(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
-        let moved = |place: Place| {
-            let mut effects = best.effects.clone();
-            let last = effects.len() - 1;
-            effects[last].place = place;
-            effects
-        };
-        let tried = |effects: &[Source]| {
-            let known = best.effects[..best.effects.len() - 1].iter().any(|e| e.is_same(&effects[effects.len() - 1]));
-            known || self.given_up.holds(effects, best) || found.iter().any(|f| is_same_set(&f.effects, effects))
-        };
+        let others = &best.effects[..best.effects.len() - 1];
         let mut places = next_to(&law.place, &self.records.structure.neighbours());
-        places.retain(|place| !tried(&moved(place.clone())));
+        places.retain(|place| !others.iter().any(|e| e.effect == law.effect && e.place.is_same(place)));
         if places.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
@@ -64,16 +57,27 @@ impl Search<'_> {
             let by_score = test.at(&places[k], &[law.effect]).into_iter().map(|scored| scored.source);
             let all = by_score.chain(with_work_of(law, &places[k], test.motion()));
             let start = |source: Source| {
-                let mut start = best.clone();
-                start.effects.pop();
-                start.effects.push(source);
-                (problem.left(&start).map_or(f64::INFINITY, |left| left.total(scale(best))), start)
+                let effects = others.iter().cloned().chain([source]).collect();
+                let start = FittedRecords { effects, ..best.clone() };
+                Some((problem.left(&start).ok()?.total(scale(best)), start))
             };
-            all.map(start).min_by(|a, b| a.0.total_cmp(&b.0))
+            let nearest = all.filter_map(start).min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.filter(|(left, start)| self.is_worth_beginning(*left, start, found))
         };
         let mut few: Vec<(f64, FittedRecords)> = self.control.map(places.len(), begun).into_iter().flatten().collect();
         few.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(few.into_iter().take(BESIDE).map(|(_, start)| start).collect())
+    }
+
+    /// Whether a start that leaves so much is to be fitted: nobody fitted its effects, or the fit of them ended where it leaves more than
+    /// that; nor were they given up, unless the start leaves about as little as the best of `found`.
+    fn is_worth_beginning(&self, left: f64, start: &FittedRecords, found: &[FittedRecords]) -> bool {
+        let Some(best) = found.first() else { return true };
+        let near = || left < NEAR * (best.chi_square + scale(best) * best.prior);
+        match found.iter().find(|f| is_same_set(&f.effects, &start.effects)) {
+            Some(own) => left < own.chi_square + scale(best) * own.prior,
+            None => near() || !self.given_up.holds(&start.effects, best),
+        }
     }
 }
 
@@ -129,6 +133,7 @@ mod tests {
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::effects::Effect;
+    use crate::response::transient::force_along;
     use crate::structure::Structure;
 
     fn three_masses() -> Structure {
@@ -136,11 +141,50 @@ mod tests {
     }
 
     #[test]
-    fn places_next_to_a_place_are_of_its_kind() {
+    fn places_next_to_a_place_share_a_dof_with_it_or_are_beside_it() {
         let neighbours = three_masses().neighbours();
-        let ground = |dof: usize| Place::Dofs(vec![dof]);
-        assert_eq!(next_to(&ground(1), &neighbours), [ground(0), ground(2)]);
-        assert_eq!(next_to(&Place::Dofs(vec![1, 0]), &neighbours), [Place::Dofs(vec![1, 2])]);
+        let place = |dofs: &[usize]| Place::Dofs(dofs.to_vec());
+        let of_mass = next_to(&place(&[1]), &neighbours);
+        assert_eq!(of_mass, [&[0][..], &[2], &[0, 1], &[1, 2]].map(place));
+        assert_eq!(next_to(&place(&[1, 0]), &neighbours), [&[1, 2][..], &[1], &[0]].map(place));
+    }
+
+    /// In one mode a law carried to another mass takes the same power at every instant, whatever lengths, speeds and powers it has.
+    #[test]
+    fn a_law_carried_to_another_place_does_the_same_work() {
+        let structure = three_masses();
+        let modes = structure.modes().unwrap();
+        let wave = |n: usize, dof: usize| {
+            let t = 5e-3 * n as f64;
+            2e-2 * modes.shapes[(dof, 0)] * (-0.1 * t).exp() * (modes.omega[0] * t).cos()
+        };
+        let run = decay(5e-3, (0..3).map(|dof| (0..1200).map(|n| wave(n, dof)).collect()).collect());
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let mut fit = FittedRecords::start(&records, &[]);
+        fit.initial[0][0] = 2e-2;
+        let motion = FitMotion::new(&records, &fit, &Control::unattended()).unwrap();
+        let laws: [(Effect, &[f64]); 6] = [
+            (Effect::CubicStiffness, &[4e5]),
+            (Effect::Quadratic, &[3.0]),
+            (Effect::Power, &[2.0, 1.6]),
+            (Effect::Gap, &[500.0, 4e-3]),
+            (Effect::ElasticSlider, &[900.0, 2.0]),
+            (Effect::Stribeck, &[1.0, 2.0, 0.05]),
+        ];
+        let power = |law: &Source| -> Vec<f64> {
+            let [d, v, a] = motion.relative(law.place.legs()[0], 0).unwrap();
+            let force = force_along(law, [&d, &v, &a], records.list[0].force_step()).unwrap();
+            force.iter().zip(&v).map(|(f, v)| f * v).collect()
+        };
+        for (effect, parameters) in laws {
+            let law = Source::known(effect, Place::Dofs(vec![2]), parameters);
+            let there = with_work_of(&law, &Place::Dofs(vec![0]), &motion).unwrap();
+            assert_eq!(there.place, Place::Dofs(vec![0]));
+            let (own, other) = (power(&law), power(&there));
+            let most = own.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+            let off = own.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(most > 0.0 && off < 1e-6 * most, "{effect:?}: {off} of {most}");
+        }
     }
 
     /// A dashpot that was fitted at the mass beside its own moves there.

@@ -153,3 +153,32 @@ pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
     };
     found.retain(|fit| !needless(fit));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Effect, Place};
+    use std::sync::Arc;
+
+    /// Of 4000 samples, what is left as large in each.
+    fn fit(effect: Effect, chi_square: f64) -> FittedRecords {
+        let parameters = vec![1.0; effect.parameters().len()];
+        let effects = vec![Source::known(effect, Place::Dofs(vec![0]), &parameters)];
+        let residual = Arc::new(vec![vec![vec![(chi_square / 4000.0).sqrt(); 4000]]]);
+        FittedRecords { residual, count: 4000, ..FittedRecords::of_effects(effects, chi_square) }
+    }
+
+    /// A power law is told beside the drag that it contains where the evidence speaks for it, though it leaves hardly less; not where
+    /// it does not, nor where what is left is an error of the model.
+    #[test]
+    fn laws_of_more_parameters_are_told_where_the_evidence_speaks_for_them() {
+        let told = |chi_squares: [f64; 2]| {
+            let mut found = vec![fit(Effect::Power, chi_squares[0]), fit(Effect::Quadratic, chi_squares[1])];
+            plainest(&mut found);
+            found.iter().map(|f| f.effects[0].effect).collect::<Vec<_>>()
+        };
+        assert_eq!(told([4000.0, 4100.0]), [Effect::Power, Effect::Quadratic]);
+        assert_eq!(told([4000.0, 4010.0]), [Effect::Quadratic]);
+        assert_eq!(told([12_000.0, 12_300.0]), [Effect::Quadratic]);
+    }
+}
