@@ -87,6 +87,8 @@ pub enum RecordProblem {
     NotFinite { text: String },
     #[error("sample {row} is {value:e} (SI units), more than any sensor reads; mend the number or remove the row")]
     BeyondMeasure { row: usize, value: f64 },
+    #[error("{value:e} (SI units) is more than any sensor reads; mend the number or remove the row")]
+    TooLarge { value: f64 },
     #[error("time {time} s follows {before} s; sort the rows by time")]
     TimeGoesBack { time: f64, before: f64 },
     #[error("{problem}")]

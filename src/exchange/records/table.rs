@@ -1,6 +1,7 @@
 //! A table of separated values as bytes: which separator, which decimal sign, where each row stands.
 
 use super::error::{At, RecordFileError, RecordProblem};
+use crate::measurement::record::MOST;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
 /// Longest text that an error message repeats.
@@ -127,6 +128,15 @@ impl<'a> Table<'a> {
             None if cell.is_empty() => Err(self.error(column, RecordProblem::EmptyCell)),
             None => Err(self.error(column, RecordProblem::NotANumber { text: quote(cell) })),
         }
+    }
+
+    /// A number of a sensor in a cell of the current row, times `to_si`: what none reads is refused.
+    pub(super) fn reading(&self, column: usize, to_si: f64) -> Result<f64, RecordFileError> {
+        let value = self.number(column)? * to_si;
+        if value.abs() <= MOST {
+            return Ok(value);
+        }
+        Err(self.error(column, RecordProblem::TooLarge { value }))
     }
 }
 
