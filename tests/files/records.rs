@@ -95,7 +95,7 @@ fn bad_files_are_named_in_one_line() {
         ),
         (
             with_header("time,force@1 [N],acc@3 [g]"),
-            "run.csv, line 1: the time is in \"\"; give it in seconds and name it time [s]",
+            "run.csv, line 1: the time has no unit; name it time [s] where it is in seconds, with the units of the other columns in their names too",
         ),
         (
             "time [s]\n0\n1\n".to_owned(),

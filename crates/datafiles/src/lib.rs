@@ -49,7 +49,7 @@ pub use contents::{Axis, Channel, Contents, Format, Kind, Number, Set};
 pub use error::Error;
 pub use file::{DataFile, open, open_paired};
 pub use parts::{Pairing, core_of, is_coherence};
-pub use table::{CUT_OFF, TIME_GOES_BACK};
+pub use table::{CUT_OFF, TIME_GOES_BACK, TIMES_COUNT};
 pub use tdms::BROKEN_OFF;
 pub use text::listed_names;
 pub use uff::Values;

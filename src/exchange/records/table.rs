@@ -173,7 +173,7 @@ fn plain_text(bytes: &[u8]) -> Result<&[u8], RecordProblem> {
         // Text of two bytes a letter has a zero in every second place; anything else with zeros is no text.
         let pairs = start.chunks_exact(2);
         let wide = |i: usize| pairs.clone().filter(|pair| pair[i] == 0).count() * 10 > pairs.len() * 8;
-        return Err(if wide(0) || wide(1) { RecordProblem::Utf16 } else { RecordProblem::Binary });
+        return Err(if wide(0) == wide(1) { RecordProblem::Binary } else { RecordProblem::Utf16 });
     }
     if text.iter().all(u8::is_ascii_whitespace) { Err(RecordProblem::Empty) } else { Ok(text) }
 }

@@ -19,6 +19,6 @@ mod wrapped;
 pub(crate) use block::Block;
 pub(crate) use blocks::Blocks;
 pub(crate) use cell::Cell;
-pub use sets::{CUT_OFF, TIME_GOES_BACK};
+pub use sets::{CUT_OFF, TIME_GOES_BACK, TIMES_COUNT};
 pub(crate) use sets::{Column, Columns, TableSource, finish};
 pub(crate) use text_columns::{FEWEST, texts_of};

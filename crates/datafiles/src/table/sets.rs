@@ -14,6 +14,8 @@ use uff::Values;
 pub const CUT_OFF: &str = "the file ends";
 /// How the note begins that times are not in order.
 pub const TIME_GOES_BACK: &str = "the time goes back";
+/// How a note begins that times without a unit may be no seconds.
+pub const TIMES_COUNT: &str = "the times have no unit and rise by";
 
 /// Values of a column.
 #[derive(Debug, Clone)]
@@ -97,6 +99,10 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
             if let Some(unit) = counted {
                 unit.clone_into(&mut set.axis_unit);
                 set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}"));
+            }
+            // Seconds are seldom whole, milliseconds and numbers of samples are.
+            if let Some(step) = step.filter(|step| counted.is_none() && *step >= 1.0 && step.fract() == 0.0) {
+                set.notes.push(format!("{TIMES_COUNT} {step}: they are taken in s"));
             }
         }
         if header.names[at].is_empty() {
