@@ -135,7 +135,7 @@ fn without_base(mut proposal: Proposal) -> Proposal {
 }
 
 /// The mapping where something of it is mapped; channels in the unit of their sensor where nothing else moves.
-fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
+pub(super) fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
     if mapping.channels.is_empty() {
         mapping.channels = std::mem::take(&mut mapping.uncalibrated);
     }
@@ -158,7 +158,7 @@ fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
 }
 
 /// What becomes a run, in order.
-fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
+pub(super) fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
     let mut sources = Vec::new();
     for file in &request.files {
         let sets = runs_of(open(file)?.contents(), &mapping.channels);
@@ -269,7 +269,7 @@ pub(super) fn unused(mapping: &Proposal) -> String {
     text
 }
 
-fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String> {
+pub(super) fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String> {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let mut text = format!("[[run]]\nfile = {}\n", quoted(&named(&source.file, out)?));
     if let Some(set) = &source.set {
