@@ -262,7 +262,19 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
         document = added(&document, source).with_context(context)?;
     }
     let known = problem(written.project).known();
-    let adopted = corrections::adopt(&diagnosis.corrections, &|index: usize| known.get(index).cloned(), &document);
+    let adopted = corrections::adopt_all(
+        &diagnosis.corrections,
+        diagnosis.verdict,
+        &|index: usize| known.get(index).cloned(),
+        &document,
+    );
+    if let Some(k) = adopted.impossible {
+        let said = corrected(written.project, &diagnosis.corrections[k]);
+        eprintln!(
+            "no correction is written: {} is no error of a model, and they were fitted together",
+            said.trim_start()
+        );
+    }
     for &k in &adopted.left {
         let said = corrected(written.project, &diagnosis.corrections[k]);
         eprintln!("not written, for want of a key for it:{said}");
