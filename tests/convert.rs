@@ -72,3 +72,73 @@ fn what_cannot_be_converted_is_one_line_and_nothing_is_written() {
     }
     assert_eq!(convert(&folder.path().join("none.csv"), &to, &[]).status.code(), Some(1));
 }
+
+/// A file of a laboratory is mapped as `import` maps it: units, times in ms, decimal commas, lines of a header, angles.
+#[test]
+fn files_of_laboratories_are_read_as_import_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (from, to) = (folder.path().join("a.txt"), folder.path().join("b.csv"));
+    let row = |n: i32| format!("{n};{:.1};1,5;180,0\r\n", 0.5 * f64::from(n)).replace('.', ",");
+    let rows: String = (0..20).map(row).collect();
+    fs::write(&from, format!("Rig 3\r\nOperator;Muster\r\nZeit [ms];Kraft [kN];Weg [mm];Winkel [deg]\r\n{rows}"))
+        .unwrap();
+    let output = convert(&from, &to, &[]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("assumed: disp@1: the file says no DOF: 1 is its number in order"), "{said}");
+    let text = fs::read_to_string(&to).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "time [s],force@1 [N],disp@1 [m],disp@2 [rad]");
+    assert_eq!((lines.len(), lines[3]), (21, "0.002,1e3,1.5e-3,3.141592653589793"));
+}
+
+#[test]
+fn of_several_runs_one_is_named_or_all_become_harmonics() {
+    let folder = tempfile::tempdir().unwrap();
+    let (from, to) = (folder.path().join("a.csv"), folder.path().join("b.csv"));
+    let block = |size: f64| {
+        let row = |n: i32| {
+            let angle = 31.0 * f64::from(n) * 0.005;
+            format!("{},{},{}\n", f64::from(n) * 0.005, size * angle.cos(), size * angle.sin())
+        };
+        format!("Time [s],Force [N],Acc 1 [m/s^2]\n{}\n", (0..400).map(row).collect::<String>())
+    };
+    fs::write(&from, format!("{}{}", block(1.0), block(2.0))).unwrap();
+    let refused = convert(&from, &to, &[]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!((refused.status.code(), said.lines().count()), (Some(1), 1), "{said}");
+    assert!(
+        said.contains("a.csv: holds 2 runs, and a table of samples one; name it by --set (\"1\", \"2\")"),
+        "{said}"
+    );
+    assert_eq!(convert(&from, &to, &["--set", "2"]).status.code(), Some(0));
+    assert!(fs::read_to_string(&to).unwrap().lines().nth(1).unwrap().starts_with("0,2,0"));
+    assert_eq!(convert(&from, &to, &["--as", "harmonics", "--harmonics", "1"]).status.code(), Some(0));
+    let text = fs::read_to_string(&to).unwrap();
+    assert_eq!(text.lines().filter(|line| line.contains("force@1")).count(), 2, "{text}");
+    let unknown = convert(&from, &to, &["--set", "7"]);
+    assert!(String::from_utf8(unknown.stderr).unwrap().contains("the file has no set \"7\"; it has \"1\", \"2\""));
+}
+
+/// Files of every format that `import` reads: a CSV that is read again, or one line that says why not.
+#[test]
+fn every_format_is_converted_or_told_why_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("b.csv");
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/datafiles/tests/corpus");
+    let mut written = 0;
+    for entry in fs::read_dir(corpus).unwrap() {
+        let from = entry.unwrap().path();
+        let output = convert(&from, &to, &[]);
+        if output.status.code() == Some(0) {
+            written += 1;
+            let again = convert(&to, &folder.path().join("c.csv"), &[]);
+            assert_eq!(again.status.code(), Some(0), "{}", from.display());
+            fs::remove_file(&to).unwrap();
+            continue;
+        }
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{}: {said}", from.display());
+    }
+    assert!(written > 15, "{written}");
+}

@@ -19,6 +19,8 @@ mod mapped;
 mod onto_model;
 #[path = "import/results.rs"]
 mod results;
+#[path = "import/said.rs"]
+mod said;
 #[path = "import/sets.rs"]
 mod sets;
 

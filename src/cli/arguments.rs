@@ -40,7 +40,7 @@ pub(super) enum Command {
     Simulate(Simulate),
     /// Apply the classical methods side by side to the same runs
     Methods(Methods),
-    /// Rewrite a measurement file: into SI units, or into fitted harmonics
+    /// Rewrite a measurement file of any format: as CSV in SI units, or as fitted harmonics
     Convert(Convert),
     /// List what is in measurement files of any format: sets, channels, units, steps, first values
     Contents(Contents),
@@ -181,7 +181,8 @@ pub(super) enum Records {
 
 #[derive(Debug, Args)]
 pub(super) struct Convert {
-    /// Time record or harmonics file, in any CSV that is understood
+    /// Time record, harmonics or stepped-sine table: a CSV of the project's own form, or a measurement file of any format that
+    /// `import` reads, whose channels are mapped as it maps them
     #[arg(value_name = "IN")]
     pub input: PathBuf,
     /// File to write
@@ -199,6 +200,15 @@ pub(super) struct Convert {
     /// Significant digits of the samples; as many as read back the same unless given
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
+    /// Template, or project, whose [[channel]] tables say what the channels are; proposed from the file unless given
+    #[arg(long)]
+    pub map: Option<PathBuf>,
+    /// Set of the run, of a file that holds several
+    #[arg(long)]
+    pub set: Option<String>,
+    /// Sampling rate in Hz of a file that does not say it
+    #[arg(long, value_parser = positive)]
+    pub sampling_hz: Option<f64>,
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! `dashpot compare`: model against measurement, error per run, channel and harmonic.
 
 use super::arguments::Analysis;
-use super::corrected::{corrected, correction};
+use super::corrected::{correction, listed};
 use super::records::compared;
 use super::run_flags::{self, flags};
 use super::table::{number, table};
@@ -114,7 +114,7 @@ fn in_words(project: &Project, reading: &Detuning) -> String {
         let [share, after] = [reading.share, reading.error_after].map(|x| number(100.0 * x));
         lines
             .push_str(&format!("corrections explain {share} % of the squared difference, error with them {after} %\n"));
-        reading.corrections.iter().for_each(|c| lines.push_str(&format!("{}\n", corrected(project, c))));
+        lines.push_str(&listed(project, &reading.corrections));
     }
     lines
 }

@@ -10,6 +10,9 @@ use crate::session::validation::problem;
 use crate::structure::{HeldDof, Part, Structure};
 use serde_json::{Map, Value, json};
 
+/// Change below which a correction is not worth a line.
+const LITTLE: f64 = 1e-3;
+
 /// A correction of what the model states: `what`, its place or mode, and the factor on it.
 pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
     let mut map = Map::new();
@@ -67,9 +70,45 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
     format!("  {what}{spring}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
 }
 
+/// Whether a correction is more than its deviation and [`LITTLE`], or no number.
+pub(super) fn is_telling(correction: &Correction) -> bool {
+    let change = (correction.factor - 1.0).abs();
+    let is_little = change <= LITTLE || change <= correction.deviation;
+    !is_little
+}
+
+/// Corrections in words, a line each: those that are more than their deviation and [`LITTLE`]; the others are counted in one line.
+pub(super) fn listed(project: &Project, corrections: &[Correction]) -> String {
+    let counts = |c: &&Correction| is_telling(c);
+    let mut lines: String = corrections.iter().filter(counts).map(|c| corrected(project, c) + "\n").collect();
+    let others = corrections.iter().filter(|c| !counts(c)).count();
+    if others > 0 {
+        let more = if lines.is_empty() { "" } else { " more" };
+        let are = if others == 1 { "correction is" } else { "corrections are" };
+        lines.push_str(&format!("  {others}{more} {are} within the deviation, or within 0.1 %, of what is stated\n"));
+    }
+    lines
+}
+
 /// The spring that a support is which gives way.
 fn spring_of(structure: &Structure, held: HeldDof, factor: f64) -> Option<String> {
     let unit = if held.dof % 2 == 1 { "N m/rad" } else { "N/m" };
     let stiffness = structure.stiffness_at(held).filter(|_| factor < 1.0)?;
     Some(format!(" (a spring of {:.3e} {unit})", stiffness * factor / (1.0 - factor)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_correction_within_its_deviation_or_a_thousandth_is_not_told() {
+        let told = |factor: f64, deviation: f64| {
+            is_telling(&Correction { parameter: UpdatingParameter::Structure(Part::Mass), factor, deviation })
+        };
+        assert!(told(1.02, 0.01) && told(0.9, 0.05) && told(1.0011, 0.0));
+        assert!(!told(1.02, 0.03) && !told(1.0, 0.02) && !told(1.0009, 1e-6));
+        // What is no number is shown, not counted among what is little.
+        assert!(told(f64::NAN, 0.1));
+    }
 }

@@ -1,7 +1,7 @@
 //! `dashpot diagnose`: which effect is missing, ranked, with evidence.
 
 use super::arguments::Diagnose;
-use super::corrected::{corrected, correction};
+use super::corrected::{corrected, correction, is_telling, listed};
 use super::mended_first::mended_first;
 use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
@@ -187,10 +187,9 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
     lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {
-        lines.push_str("\nthe model is detuned; corrected beside that\n");
-        for correction in &diagnosis.corrections {
-            lines.push_str(&format!("{}\n", corrected(project, correction)));
-        }
+        let detuned = diagnosis.corrections.iter().any(is_telling);
+        lines.push_str(if detuned { "\nthe model is detuned; corrected beside that\n" } else { "\n" });
+        lines.push_str(&listed(project, &diagnosis.corrections));
         lines.push_str(&force_gain(diagnosis));
     }
     if let Some(coupled) = structure.coupled() {
@@ -237,7 +236,7 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
 
 /// What equal factors on all mass and all stiffness are as well.
 fn force_gain(diagnosis: &Diagnosis) -> String {
-    as_force_gain(&diagnosis.corrections).map_or_else(String::new, |gain| {
+    as_force_gain(&diagnosis.corrections).filter(is_telling).map_or_else(String::new, |gain| {
         format!(
             "  one factor on all mass and all stiffness is as well a force channel that reads {:.4} +- {:.4} times the force: check its calibration\n",
             gain.factor, gain.deviation
@@ -262,7 +261,19 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
         document = added(&document, source).with_context(context)?;
     }
     let known = problem(written.project).known();
-    let adopted = corrections::adopt(&diagnosis.corrections, &|index: usize| known.get(index).cloned(), &document);
+    let adopted = corrections::adopt_all(
+        &diagnosis.corrections,
+        diagnosis.verdict,
+        &|index: usize| known.get(index).cloned(),
+        &document,
+    );
+    if let Some(k) = adopted.impossible {
+        let said = corrected(written.project, &diagnosis.corrections[k]);
+        eprintln!(
+            "no correction is written: {} is no error of a model, and they were fitted together",
+            said.trim_start()
+        );
+    }
     for &k in &adopted.left {
         let said = corrected(written.project, &diagnosis.corrections[k]);
         eprintln!("not written, for want of a key for it:{said}");

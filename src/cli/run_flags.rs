@@ -85,11 +85,21 @@ pub(super) fn text(project: &Project) -> String {
     if lines.is_empty() { lines } else { format!("\nflags\n{lines}") }
 }
 
-/// Fails where no run that is wanted is of a steady motion.
+/// Fails where no run that is wanted is of a steady motion, and where others need a model that is not there.
 ///
 /// # Errors
 /// One line with the reason of the first such run, and how to use it all the same.
 pub(super) fn check(project: &Project, file: &Path) -> anyhow::Result<()> {
+    let unsteady = project.transient_runs.len();
+    if project.runs.is_empty() && unsteady > 0 && project.structure.matrices().is_none() {
+        let (all, are) =
+            if unsteady == 1 { ("its run", "is no steady state") } else { ("all runs", "are no steady states") };
+        bail!(
+            "{}: {all} {are}, and decays and transients need mass and stiffness: write a [structure] of kind \"beam\", \"chain\" or \
+             \"matrices\" in place of points",
+            file.display()
+        );
+    }
     let wanted: Vec<&Run> = project.runs.iter().filter(|run| run.enabled).collect();
     if wanted.is_empty() || wanted.iter().any(|run| run.is_used()) {
         return Ok(());

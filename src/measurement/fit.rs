@@ -11,6 +11,7 @@ use super::design::Design;
 use super::noise::Lag;
 use super::record::Record;
 use super::slope::Slope;
+use crate::math::numerals::significant;
 use dashpot_numerics::dot;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -37,7 +38,8 @@ pub enum FitError {
     )]
     TooShort { duration: f64, frequency_hz: f64 },
     #[error(
-        "{rate_hz} samples a second cannot resolve {frequency_hz} Hz; sample more than twice a period or correct the frequency"
+        "{} samples a second cannot resolve {} Hz; sample more than twice a period or correct the frequency",
+        significant(*rate_hz, 6), significant(*frequency_hz, 6)
     )]
     Unresolved { rate_hz: f64, frequency_hz: f64 },
     #[error("{samples} samples cannot determine {unknowns} unknowns; record at least {needed} samples")]

@@ -11,7 +11,7 @@ pub(crate) const FEWEST_SAMPLES: usize = 5;
 const MOST_REPEATED: f64 = 0.1;
 
 /// Largest number that is taken for a measurement, SI units; squares of larger ones soon overflow.
-const MOST: f64 = 1e30;
+pub(crate) const MOST: f64 = 1e30;
 
 /// A time record: `samples[channel][n]` at `time[n]`.
 ///
@@ -39,7 +39,7 @@ pub enum RecordError {
     UnequalColumns { channels: usize, columns: usize },
     #[error("{channel} stands twice; remove or rename one")]
     DuplicateChannel { channel: String },
-    #[error("sample {row} of {channel} is {value}; remove the row or mend the number")]
+    #[error("sample {row} of {channel} is {}; remove the row or mend the number", no_number(*value))]
     NotFinite { channel: String, row: usize, value: f64 },
     #[error("time {time} s of sample {row} follows {before} s; sort the rows by time")]
     TimeGoesBack { row: usize, time: f64, before: f64 },
@@ -166,6 +166,11 @@ fn check_time(time: &[f64]) -> Result<(), RecordError> {
     Ok(())
 }
 
+/// A number that is none, in words: readers give NaN for cells that are empty.
+fn no_number(value: f64) -> String {
+    if value.is_nan() { "NaN or left empty".to_owned() } else { value.to_string() }
+}
+
 fn check_values(channel: &Channel, values: &[f64], expected: usize) -> Result<(), RecordError> {
     if values.len() != expected {
         let channel = channel.to_string();
@@ -198,7 +203,7 @@ mod tests {
         assert_eq!(message(&time[..3], vec![vec![0.0; 3]]), "there are 3 samples; a record needs at least 5");
         assert_eq!(
             message(&time, vec![vec![0.0, 1.0, f64::NAN, 0.0, 0.0]]),
-            "sample 3 of vel@0 is NaN; remove the row or mend the number"
+            "sample 3 of vel@0 is NaN or left empty; remove the row or mend the number"
         );
         assert_eq!(
             message(&[0.0, 1.0, 0.5, 3.0, 4.0], vec![vec![0.0; 5]]),

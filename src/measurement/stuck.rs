@@ -122,7 +122,8 @@ fn gaps(record: &Record) -> Option<String> {
 
 fn repeated_times(record: &Record) -> Option<String> {
     let count = record.time().windows(2).filter(|pair| pair[0] == pair[1]).count();
-    (count > 0).then(|| format!("{count} times stand twice"))
+    let stand = if count == 1 { "time stands" } else { "times stand" };
+    (count > 0).then(|| format!("{count} {stand} twice"))
 }
 
 /// Rows whose every channel repeats the row before, where the fit says that at least one should have moved.

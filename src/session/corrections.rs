@@ -4,6 +4,7 @@
 use super::command::{Command, SourceAt};
 use super::document::Document;
 use super::suggestions::labels;
+use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
@@ -19,6 +20,36 @@ pub(crate) struct Adopted {
     pub commands: Vec<Command>,
     /// Which corrections the project has no number for, by their place in the list.
     pub left: Vec<usize>,
+    /// The correction that no model needs, for which none is taken over: they were fitted together.
+    pub impossible: Option<usize>,
+}
+
+/// Largest factor on a stiffness or a mass, and inverse of the smallest, that is taken over from a search which explains nothing:
+/// models are not wrong by more, and there such factors only follow what is missing.
+const MOST: f64 = 7.0;
+
+/// [`adopt`] for all corrections of a search that ended with `verdict`.
+pub(crate) fn adopt_all(
+    corrections: &[Correction],
+    verdict: Verdict,
+    known: &dyn Fn(usize) -> Option<Source>,
+    document: &Document,
+) -> Adopted {
+    let unexplained = verdict == Verdict::Unexplained;
+    match corrections.iter().position(|correction| !is_possible(correction, unexplained)) {
+        None => adopt(corrections, known, document),
+        impossible => Adopted { impossible, ..Adopted::default() },
+    }
+}
+
+/// Whether a model may be off by a correction. Supports give way to nothing, and damping is often but guessed.
+fn is_possible(correction: &Correction, unexplained: bool) -> bool {
+    let factor = correction.factor;
+    let bounded = match correction.parameter {
+        UpdatingParameter::Structure(part) => !matches!(part, Part::Support(_) | Part::ModeDamping(_)),
+        _ => false,
+    };
+    factor > 0.0 && factor.is_finite() && !(unexplained && bounded && factor.ln().abs() > MOST.ln())
 }
 
 /// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.
@@ -166,6 +197,37 @@ mod tests {
 
     fn correction(parameter: UpdatingParameter, factor: f64) -> Correction {
         Correction { parameter, factor, deviation: 0.01 }
+    }
+
+    #[test]
+    fn corrections_that_no_model_needs_are_not_taken_over() {
+        let structure = |part: Part, factor: f64| correction(UpdatingParameter::Structure(part), factor);
+        for (one, explained, unexplained) in [
+            (structure(Part::Mass, 1.2), true, true),
+            (structure(Part::Mass, 8.0), true, false),
+            (structure(Part::Coupling([0, 1]), 0.1), true, false),
+            (structure(Part::Mass, -0.3), false, false),
+            (correction(UpdatingParameter::Known(0), -0.3), false, false),
+            (correction(UpdatingParameter::Known(0), 20.0), true, true),
+            (correction(UpdatingParameter::Known(0), f64::NAN), false, false),
+        ] {
+            assert_eq!([false, true].map(|u| is_possible(&one, u)), [explained, unexplained], "{one:?}");
+        }
+    }
+
+    #[test]
+    fn one_that_is_impossible_leaves_out_those_that_were_fitted_with_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("project.toml");
+        std::fs::write(&path, CHAIN).unwrap();
+        let d = Session::open(&path).unwrap().document().clone();
+        let corrections = [
+            correction(UpdatingParameter::Structure(Part::Stiffness), 1.1),
+            correction(UpdatingParameter::Structure(Part::Mass), 8.0),
+        ];
+        let adopted = adopt_all(&corrections, Verdict::Unexplained, &|_| None, &d);
+        assert!(adopted.commands.is_empty() && adopted.impossible == Some(1));
+        assert_eq!(adopt_all(&corrections, Verdict::Detuned, &|_| None, &d).commands.len(), 2);
     }
 
     #[test]

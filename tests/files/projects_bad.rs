@@ -55,6 +55,11 @@ fn documents() {
     );
     let message = plan("[project]\nformat = \n", Path::new("p.toml")).unwrap_err().to_string();
     assert!(message.starts_with("p.toml:2: not valid TOML: "), "{message}");
+    refused(
+        "[project]\nformat = 1\ntitle = \"C:\\data\"\n",
+        "p.toml:3: not valid TOML: a backslash between quotation marks begins a special letter; write paths with /, or in single \
+         quotes ('C:\\data\\a.csv')",
+    );
     let message = plan("[project]\nformat = 1\nformat = 1\n", Path::new("p.toml")).unwrap_err().to_string();
     assert!(message.starts_with("p.toml:3: not valid TOML: duplicate key"), "{message}");
 }

@@ -95,7 +95,7 @@ fn bad_files_are_named_in_one_line() {
         ),
         (
             with_header("time,force@1 [N],acc@3 [g]"),
-            "run.csv, line 1: the time is in \"\"; give it in seconds and name it time [s]",
+            "run.csv, line 1: the time has no unit; name it time [s] where it is in seconds, with the units of the other columns in their names too",
         ),
         (
             "time [s]\n0\n1\n".to_owned(),
@@ -261,6 +261,8 @@ const HARMONICS: &str = "run,frequency_hz,channel,harmonic,cos,sin\n\
     a,10,force@1 [N],1,1,0.5\na,10,force@1 [N],2,0,0\na,10,acc@3 [g],2,0.1,0\na,10,acc@3 [g],1,2,-3\n\
     b,12,force@1 [N],1,1,0\n";
 
+const TOO_LARGE: &str = "(SI units) is more than any sensor reads; mend the number or remove the row";
+
 #[test]
 fn harmonics_are_read_by_run() {
     let runs = parse_harmonics(HARMONICS.as_bytes(), "h.csv", &beam()).unwrap();
@@ -331,6 +333,10 @@ fn bad_harmonics_are_named_in_one_line() {
             "run,frequency_hz,channel,harmonic,cos,sin,cos_std,sin_std\na,1,acc@1 [g],1,1,1,-1,0\n".to_owned(),
             "h.csv, line 2, cos_std: \"-1\" is not a standard deviation; write zero or a positive number".to_owned(),
         ),
+        // What no sensor reads, in SI units.
+        (change("1,2,-3", "1,2,-1e30"), format!("h.csv, line 5, sin: -9.80665e30 {TOO_LARGE}")),
+        (change("1,2,-3", "1,1.7e308,-3"), format!("h.csv, line 5, cos: inf {TOO_LARGE}")),
+        (change("b,12", "b,1e200"), format!("h.csv, line 6, frequency_hz: 1e200 {TOO_LARGE}")),
     ];
     for (text, expected) in cases {
         let found = parse_harmonics(text.as_bytes(), "h.csv", &beam()).unwrap_err().to_string();

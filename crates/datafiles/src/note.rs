@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A defect of a file that decides what can be read of it.
+/// What is wrong or uncertain in a file and decides what can be read of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Defect {
     /// The last row of a table ends early: the file was cut off.
@@ -11,6 +11,8 @@ pub enum Defect {
     BrokenOff,
     /// Times are not in order.
     TimeGoesBack,
+    /// Times without a unit rise by whole numbers: they may be no seconds.
+    TimesCount,
     /// A part of the file is not read.
     NotRead,
 }

@@ -51,7 +51,7 @@ fn what_is_wrong_and_how_to_mend_it_is_said() {
         (
             "a.csv",
             b"time,a\n0,1\n1,2\n2,x\n3,4\n",
-            "a.csv, line 4: column 2: \"x\" is not a number; write one such as 1.25e-3, or leave the cell empty",
+            "a.csv, line 4: column 2: \"x\" is not a number; write one such as 1.25e-3, or remove the row",
         ),
         ("a.csv", b"time,a\n0,1\n1,2\n2,3,4\n", "a.csv, line 4: there are 3 cells and 2 columns above"),
         ("a.mat", b"MATLAB 5.0 MAT-file, cut", "a.mat, byte 124: the header of the MAT file is damaged or cut short"),

@@ -66,6 +66,10 @@ pub enum Problem {
     Missing { what: &'static str },
     #[error("the file ends in the middle of {what}; copy or export it again")]
     EndsEarly { what: &'static str },
+    #[error(
+        "no ENDDATA follows BEGIN BULK, so the file may have been cut short; copy or export it again, or, where it is whole, add a last line ENDDATA"
+    )]
+    NoEnd,
     #[error("there is no matrix in the file; it must hold {expected}")]
     NoMatrix { expected: &'static str },
     #[error("matrix {name} is complex; export the real mass or stiffness matrix")]

@@ -13,6 +13,7 @@ mod looks;
 mod model;
 mod names;
 mod numbers;
+pub mod plain;
 mod records;
 mod refusal;
 mod request;

@@ -6,7 +6,7 @@ use super::looks::{Looks, look};
 use super::model::head;
 use super::names::proposed;
 use super::numbers::placed;
-use super::refusal::refusal;
+use super::refusal::{cut_short, refusal, unsampled};
 use super::request::{Imported, Request};
 use super::roving;
 use super::run_source::{RunSource, kinds};
@@ -36,8 +36,7 @@ pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: 
         mapping = placed(mapping, &head(request, out, "", 0.0)?, out)?;
     }
     if mapping.needs_sampling && request.sampling_hz.is_none() {
-        let problem = "the file does not say the time between samples; give it by --sampling-hz";
-        return Err(ImportError::of(&request.files[0], problem));
+        return Err(ImportError::of(&request.files[0], unsampled(open(&request.files[0])?.contents())));
     }
     let mut sources = sources(request, &mapping)?;
     rove(request, &mut mapping, &mut sources)?;
@@ -136,13 +135,16 @@ fn without_base(mut proposal: Proposal) -> Proposal {
 }
 
 /// The mapping where something of it is mapped; channels in the unit of their sensor where nothing else moves.
-fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
+pub(super) fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
     if mapping.channels.is_empty() {
         mapping.channels = std::mem::take(&mut mapping.uncalibrated);
     }
     if mapping.channels.is_empty() {
         let why = refusal(open(&request.files[0])?.contents(), &mapping.left);
         return Err(ImportError::of(&request.files[0], why));
+    }
+    if let Some(cut) = cut_short(open(&request.files[0])?.contents(), &mapping) {
+        return Err(ImportError::of(&request.files[0], cut));
     }
     if let Some((name, why)) = mapping.motion_of_another_rate() {
         let force = &mapping.channels[0].name;
@@ -156,7 +158,7 @@ fn usable(request: &Request, mut mapping: Proposal) -> Result<Proposal> {
 }
 
 /// What becomes a run, in order.
-fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
+pub(super) fn sources(request: &Request, mapping: &Proposal) -> Result<Vec<RunSource>> {
     let mut sources = Vec::new();
     for file in &request.files {
         let sets = runs_of(open(file)?.contents(), &mapping.channels);
@@ -267,7 +269,7 @@ pub(super) fn unused(mapping: &Proposal) -> String {
     text
 }
 
-fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String> {
+pub(super) fn run_table(request: &Request, source: &RunSource, out: &Path) -> Result<String> {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let mut text = format!("[[run]]\nfile = {}\n", quoted(&named(&source.file, out)?));
     if let Some(set) = &source.set {

@@ -1,5 +1,7 @@
 //! Why nothing of a file can be imported, in one line that says how to mend it.
 
+use crate::exchange::mapping::Proposal;
+use crate::exchange::mapping::samples::{cut_off, time_goes_back};
 use dashpot_datafiles::{Contents, Defect, Kind, Note, Set};
 
 /// Most channels that are named.
@@ -47,4 +49,15 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String 
     }
     "holds nothing that was measured; export time records or frequency responses (data set 58 of Universal Files)"
         .to_owned()
+}
+
+/// What is wrong with a file whose last row or recording was cut off, so that a channel of `mapping` is left out.
+pub(super) fn cut_short(contents: &Contents, mapping: &Proposal) -> Option<String> {
+    (0..contents.sets.len()).find_map(|set| cut_off(contents, set)).filter(|_| mapping.leaves_another_length())
+}
+
+/// What is wrong with a file that does not say the time between samples.
+pub(super) fn unsampled(contents: &Contents) -> String {
+    let back = contents.sets.iter().find_map(time_goes_back);
+    back.unwrap_or_else(|| "the file does not say the time between samples; give it by --sampling-hz".to_owned())
 }

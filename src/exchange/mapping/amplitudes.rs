@@ -15,6 +15,7 @@ use super::samples::factor_to_si;
 use super::table::ChannelTable;
 use crate::exchange::records::columns::{Role, role};
 use crate::exchange::records::{HarmonicsRun, RecordFileError};
+use crate::measurement::record::MOST;
 use crate::measurement::{Channel as Measured, ChannelFit, HarmonicFit, Quantity};
 use crate::structure::Structure;
 use dashpot_datafiles::{Channel, Contents, DataFile, Kind, Set, Values, open};
@@ -166,6 +167,7 @@ pub(crate) fn read_amplitudes(
     let Some(frequencies) = frequencies(&file, s) else {
         return Err(at.error(None, "the table has no column of frequencies; call it `Frequency [Hz]`"));
     };
+    columns.iter().try_for_each(|column| column.measurable(&at))?;
     let levels = levels(&file, s, &at)?;
     let set = table.set.map_or_else(String::new, |set| format!("{set} "));
     let run = |(row, &frequency_hz): (usize, &f64)| {
@@ -208,6 +210,15 @@ impl Column {
             return Err(at.error(Some(&channel.name), "has no phase; name its column under [harmonics.phases]"));
         }
         Ok(Self { channel: target, factor, sizes, phases })
+    }
+
+    /// Refuses an amplitude that no sensor reads.
+    fn measurable(&self, at: &At<'_>) -> Result<(), RecordFileError> {
+        let beyond = |size: &f64| size.is_finite() && (size * self.factor).abs() > MOST;
+        let Some(row) = self.sizes.iter().position(beyond) else { return Ok(()) };
+        let value = self.sizes[row] * self.factor;
+        let problem = format!("row {} is {value:e} (SI units), more than any sensor reads", row + 1);
+        Err(at.error(Some(&self.channel.to_string()), format!("{problem}; mend the number or leave the row out")))
     }
 }
 

@@ -99,6 +99,12 @@ pub(super) fn of_base(name: &str) -> bool {
     words(name).iter().any(|word| BASES.contains(&word.as_str()))
 }
 
+/// Whether a name is that of a moment.
+pub(super) fn of_moment(name: &str) -> bool {
+    const MOMENTS: [&str; 6] = ["moment", "torque", "drehmoment", "couple", "momento", "coppia"];
+    words(name).iter().any(|word| MOMENTS.contains(&word.as_str()))
+}
+
 /// Direction `x`, `y` or `z` at the end of a name, such as `Table Z`.
 pub(super) fn direction_of(name: &str) -> Option<String> {
     let last = words(name).pop()?;

@@ -10,7 +10,7 @@ mod memory;
 pub mod propose;
 mod read;
 mod runs;
-mod samples;
+pub(crate) mod samples;
 mod stepped;
 pub(crate) mod table;
 pub(crate) mod units;

@@ -4,15 +4,15 @@
 //! be a motion in a unit of its sensor (volts, strain) is kept apart, as [`Proposal::uncalibrated`].
 
 use super::guess::{
-    angle, are_directions, direction_of, in_g, is_sensor_unit, of_base, of_identification, place_beside, place_of,
-    quantity_of_type, spoken, symbol,
+    angle, are_directions, direction_of, in_g, is_sensor_unit, of_base, of_identification, of_moment, place_beside,
+    place_of, quantity_of_type, spoken, symbol,
 };
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::measurement::Quantity;
 use crate::measurement::channel::parse_name;
 use dashpot_datafiles::units::{sensitivity, suffix};
-use dashpot_datafiles::{Axis, Channel, Contents, Format, Kind, Set};
+use dashpot_datafiles::{Axis, Channel, Contents, Defect, Format, Kind, Set};
 
 /// Names of channels that `dashpot_datafiles` found to be the times of others.
 const TIMES: &str = "time of ";
@@ -91,6 +91,11 @@ pub fn propose(contents: &Contents) -> Proposal {
     let mut drafts = proposal.of_one_length(drafts);
     take_for_base(&mut drafts);
     let again = proposal.number(drafts);
+    let counted = recorded.iter().flat_map(|set| &set.notes).find(|note| note.tells(Defect::TimesCount));
+    if let (Some(note), Some(first)) = (counted, proposal.channels.first()) {
+        let what = format!("{note}, which is assumed; where they count milliseconds or samples, say so in the header");
+        proposal.assumed.push((first.channel(), what));
+    }
     proposal.take_further_runs(again);
     proposal
 }
@@ -170,6 +175,11 @@ impl Proposal {
         let forces = !self.channels.is_empty() && self.channels.iter().all(|table| table.quantity == Quantity::Force);
         let uneven = |why: &str| why.contains(OTHER_RATE) || why.contains(OTHER_LENGTH);
         self.left.iter().find(|(_, why)| forces && uneven(why))
+    }
+
+    /// Whether a channel is left out since it has another number of values than the others.
+    pub(crate) fn leaves_another_length(&self) -> bool {
+        self.left.iter().any(|(_, why)| why.contains(OTHER_LENGTH))
     }
 
     /// Keeps the channels of the length and step that most of them have: those of a run share their times.
@@ -277,7 +287,8 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
         draft.convert(unit, quantity, &channel.unit);
         return Ok(draft);
     }
-    let unit = LabUnit::from_name(&channel.unit);
+    let moment = channel.unit == "nm" && of_moment(&channel.name);
+    let unit = LabUnit::from_name(if moment { "Nm" } else { &channel.unit });
     let typed = channel.attribute("quantity").and_then(quantity_of_type);
     let symbol = symbol(&channel.name)
         .filter(|quantity| channel.unit.is_empty() && (!moved || *quantity != Quantity::Displacement));
@@ -314,6 +325,9 @@ fn draft(channel: &Channel, set: Option<String>, moved: bool, recorder: bool) ->
     if g {
         draft.table.unit = Some("g".to_owned());
         draft.assumed.push("by its name in g".to_owned());
+    } else if moment {
+        draft.table.unit = Some("N m".to_owned());
+        draft.assumed.push("by its name a moment; the file says nm: N m is assumed".to_owned());
     } else if turned {
         draft.table.unit = Some("rad".to_owned());
         draft.assumed.push("by its name an angle; the file says no unit: rad is assumed".to_owned());

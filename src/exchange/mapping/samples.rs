@@ -4,7 +4,7 @@ use super::fault::{At, data};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::exchange::records::RecordFileError;
-use dashpot_datafiles::{Axis, DataFile, Defect, Kind, Note, Values};
+use dashpot_datafiles::{Axis, Contents, DataFile, Defect, Kind, Note, Set, Values};
 
 /// Largest difference of the times of two channels of a run, in steps.
 const SAME_TIME: f64 = 0.01;
@@ -30,11 +30,32 @@ pub(super) fn samples(
             let Values::Real(mut values) = values else {
                 return Err(at.error(Some(&tables[i].name), "is complex, and a run needs samples over time"));
             };
+            if let Some(row) = mark_of_missing(&values) {
+                let mark = values[row];
+                let problem = format!(
+                    "sample {} is {mark}, which marks a value that is missing: all others are smaller by far",
+                    row + 1
+                );
+                return Err(at.error(Some(&tables[i].name), format!("{problem}; remove the row or mend the number")));
+            }
             values.iter_mut().for_each(|value| *value *= factors[i]);
             found[i] = values;
         }
     }
     Ok(found)
+}
+
+/// Numbers that programs write where a value is missing.
+const MARKS: [f64; 6] = [-999.0, -9999.0, -99999.0, 9999.0, 99999.0, 999_999.0];
+/// How many times all others such a number must be.
+const BEYOND: f64 = 100.0;
+
+/// The first sample that is a mark for a missing value, as all samples that are none are far smaller.
+fn mark_of_missing(values: &[f64]) -> Option<usize> {
+    let row = values.iter().position(|value| MARKS.contains(value))?;
+    let others = values.iter().filter(|value| !MARKS.contains(value));
+    let largest = others.fold(0.0_f64, |most, value| most.max(value.abs()));
+    (largest > 0.0 && values[row].abs() > BEYOND * largest).then_some(row)
 }
 
 /// Factor of the numbers of a channel to SI, with sign and calibration.
@@ -108,9 +129,8 @@ pub(super) fn times(
     };
     match (axis, sampling_hz) {
         (None, None) => {
-            let notes = &file.contents().sets[set].notes;
-            if let Some(back) = notes.iter().find(|note| note.tells(Defect::TimeGoesBack)) {
-                return Err(at.error(None, format!("{back}; sort the rows by time")));
+            if let Some(back) = time_goes_back(&file.contents().sets[set]) {
+                return Err(at.error(None, back));
             }
             let problem = "the file does not say the time between samples; add `sampling_hz` to its [[run]]";
             Err(at.error(Some(&table.name), problem))
@@ -142,22 +162,29 @@ pub(super) fn same_even_axis(file: &DataFile, first: (usize, usize), other: (usi
     matches!(axis_of(first).0, Axis::Even { .. }) && axis_of(first) == axis_of(other)
 }
 
-/// What a file says of its end where it was cut off, which is why its channels are not of one length.
-fn cut_off(file: &DataFile, set: usize) -> Option<&Note> {
-    let contents = file.contents();
+/// Where the times of a set are not in order, and how to mend it.
+pub(crate) fn time_goes_back(set: &Set) -> Option<String> {
+    let back = set.notes.iter().find(|note| note.tells(Defect::TimeGoesBack))?;
+    Some(format!("{back}; sort the rows by time"))
+}
+
+/// What a file says of its end where it was cut off, which is why channels of a set are not of one length.
+pub(crate) fn cut_off(contents: &Contents, set: usize) -> Option<String> {
     let said = |note: &&Note| note.tells(Defect::CutOff) || note.tells(Defect::BrokenOff);
-    contents.sets[set].notes.iter().chain(&contents.notes).find(said)
+    let cut = contents.sets[set].notes.iter().chain(&contents.notes).find(said)?;
+    Some(if cut.tells(Defect::CutOff) {
+        format!("{cut}: it was cut off; copy or export it again, or remove the last row")
+    } else {
+        format!("{cut}; copy or export it again with channels of one length")
+    })
 }
 
 /// Refuses channels of a file that was cut off and are not of one length.
 pub(super) fn whole(file: &DataFile, places: &[(usize, usize)], at: &At<'_>) -> Result<(), RecordFileError> {
     let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
     let uneven = places.windows(2).any(|pair| count(&pair[0]) != count(&pair[1]));
-    match places.first().and_then(|&(set, _)| cut_off(file, set)).filter(|_| uneven) {
-        Some(cut) if cut.tells(Defect::CutOff) => {
-            Err(at.error(None, format!("{cut}: it was cut off; copy or export it again, or remove the last row")))
-        }
-        Some(broken) => Err(at.error(None, format!("{broken}; copy or export it again with channels of one length"))),
+    match places.first().and_then(|&(set, _)| cut_off(file.contents(), set)).filter(|_| uneven) {
+        Some(cut) => Err(at.error(None, cut)),
         None => Ok(()),
     }
 }

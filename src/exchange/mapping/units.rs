@@ -18,14 +18,18 @@ const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
 
 /// Spellings in lower case without blanks, brackets and carets, with their factor and quantity.
-const SPELLINGS: [(&[&str], f64, Quantity); 25] = [
+const SPELLINGS: [(&[&str], f64, Quantity); 26] = [
     (&["n", "newton", "newtons"], 1.0, Quantity::Force),
     (&["mn"], 1e-3, Quantity::Force),
     (&["kn"], 1e3, Quantity::Force),
     (&["lbf", "lb", "lbs", "pound"], POUND_FORCE, Quantity::Force),
     (&["kgf", "kp"], STANDARD_GRAVITY, Quantity::Force),
-    (&["m/s2", "m/s²", "m/s**2", "ms-2", "m/(s2)", "m/s/s", "m*s-2", "m.s-2"], 1.0, Quantity::Acceleration),
-    (&["mm/s2", "mm/s²", "mm/s**2"], 1e-3, Quantity::Acceleration),
+    (
+        &["m/s2", "m/s²", "m/s**2", "ms-2", "m/(s2)", "m/s/s", "m*s-2", "m.s-2", "m/sec2", "m/sec²"],
+        1.0,
+        Quantity::Acceleration,
+    ),
+    (&["mm/s2", "mm/s²", "mm/s**2", "mm/sec2"], 1e-3, Quantity::Acceleration),
     (&["g", "gn", "g_n", "gs", "g's", "gravity"], STANDARD_GRAVITY, Quantity::Acceleration),
     (&["mg"], 1e-3 * STANDARD_GRAVITY, Quantity::Acceleration),
     (&["in/s2", "in/s²", "in/s**2"], INCH, Quantity::Acceleration),
@@ -33,8 +37,9 @@ const SPELLINGS: [(&[&str], f64, Quantity); 25] = [
     (&["cm/s2", "cm/s²", "gal"], 1e-2, Quantity::Acceleration),
     (&["km/s2", "km/s²"], 1e3, Quantity::Acceleration),
     (&["ft/s"], FOOT, Quantity::Velocity),
-    (&["m/s", "ms-1"], 1.0, Quantity::Velocity),
-    (&["mm/s"], 1e-3, Quantity::Velocity),
+    (&["m/s", "ms-1", "m/sec"], 1.0, Quantity::Velocity),
+    (&["mm/s", "mm/sec"], 1e-3, Quantity::Velocity),
+    (&["um/s", "µm/s", "μm/s"], 1e-6, Quantity::Velocity),
     (&["cm/s"], 1e-2, Quantity::Velocity),
     (&["in/s", "ips"], INCH, Quantity::Velocity),
     (&["m", "meter", "metre"], 1.0, Quantity::Displacement),
@@ -47,8 +52,13 @@ const SPELLINGS: [(&[&str], f64, Quantity); 25] = [
 ];
 
 /// Units of rotation.
-const ROTATIONS: [(&[&str], f64, Quantity); 8] = [
+const ROTATIONS: [(&[&str], f64, Quantity); 13] = [
     (&["nm", "n*m", "n·m", "n-m", "n.m"], 1.0, Quantity::Force),
+    (&["nmm", "n*mm", "n·mm", "n-mm", "n.mm"], 1e-3, Quantity::Force),
+    (&["ncm", "n*cm", "n·cm", "n.cm"], 1e-2, Quantity::Force),
+    (&["knm", "kn*m", "kn·m", "kn-m", "kn.m"], 1e3, Quantity::Force),
+    (&["lbfin", "lbf*in", "lbf·in", "lbf-in", "in-lbf", "in-lb", "lb-in"], POUND_FORCE * INCH, Quantity::Force),
+    (&["lbfft", "lbf*ft", "lbf·ft", "lbf-ft", "ft-lbf", "ft-lb", "lb-ft"], POUND_FORCE * FOOT, Quantity::Force),
     (&["rad/s2", "rad/s²", "rad/s**2"], 1.0, Quantity::Acceleration),
     (&["deg/s2", "deg/s²", "°/s2", "°/s²"], std::f64::consts::PI / 180.0, Quantity::Acceleration),
     (&["rad/s"], 1.0, Quantity::Velocity),
@@ -65,9 +75,12 @@ impl LabUnit {
             return Some(Self { to_si: unit.to_si, quantity: unit.quantity, rotation: unit.rotation });
         }
         let plain: String = name.chars().filter(|c| !c.is_whitespace() && !matches!(c, '^' | '[' | ']')).collect();
-        // Capital letters matter in one place: mN is a millinewton, MN is not read.
-        if plain == "MN" || plain == "Mg" {
-            return None;
+        // Capital letters matter in a few places: mN is a millinewton, MN is not read; Nm is a moment, nm a nanometre of a vibrometer.
+        match plain.as_str() {
+            "MN" | "Mg" => return None,
+            "nm" => return Some(Self { to_si: 1e-9, quantity: Quantity::Displacement, rotation: false }),
+            "nm/s" => return Some(Self { to_si: 1e-9, quantity: Quantity::Velocity, rotation: false }),
+            _ => {}
         }
         let plain = plain.to_lowercase().replace('⁻', "-").replace("s-²", "s-2").replace("·s-", "*s-");
         let find = |list: &[(&[&str], f64, Quantity)], rotation| {
@@ -113,6 +126,12 @@ mod tests {
         assert_eq!(si("MN"), None);
         assert_eq!(si("deg"), Some((std::f64::consts::PI / 180.0, Quantity::Displacement, true)));
         assert_eq!(si("Volts"), None);
+        assert_eq!(si("m/sec^2"), Some((1.0, Quantity::Acceleration, false)));
+        assert_eq!(si("µm/s"), Some((1e-6, Quantity::Velocity, false)));
+        assert_eq!(si("Nm"), Some((1.0, Quantity::Force, true)));
+        assert_eq!(si("N mm"), Some((1e-3, Quantity::Force, true)));
+        assert_eq!(si("kN·m"), Some((1e3, Quantity::Force, true)));
+        assert_eq!(si("nm"), Some((1e-9, Quantity::Displacement, false)));
         let along = |name: &str| LabUnit::from_name(name).unwrap().measures(Quantity::Base);
         assert!(along("g") && !along("rad/s^2") && !along("mm"));
     }

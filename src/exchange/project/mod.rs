@@ -39,4 +39,4 @@ pub use file::{Lines, ProjectFile};
 pub use frf::frf_template;
 pub use load::load;
 pub use measured::MeasurementTables;
-pub use plan::{Plan, PlannedBase, PlannedForce, PlannedRun, PlannedTest, open, plan};
+pub use plan::{Fitted, Plan, PlannedBase, PlannedForce, PlannedRun, PlannedTest, open, plan};

@@ -4,6 +4,10 @@ use super::error::{Problem, ProjectError};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// What is wrong with a path as Windows writes it.
+const BACKSLASH: &str = "a backslash between quotation marks begins a special letter; write paths with /, or in single quotes \
+                         ('C:\\data\\a.csv')";
+
 /// The text that is read, for line numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Origin<'a> {
@@ -15,9 +19,17 @@ impl<'a> Origin<'a> {
     /// The document that the text is.
     pub(super) fn document(self) -> Result<Spanned<DeTable<'a>>, ProjectError> {
         DeTable::parse(self.text).map_err(|error| {
-            let message = one_line(error.message());
-            self.error(error.span().map_or(0, |span| span.start), Problem::Syntax { message })
+            let start = error.span().map_or(0, |span| span.start);
+            let at_backslash = self.is_at_backslash(start);
+            let message = if at_backslash { BACKSLASH.to_owned() } else { one_line(error.message()) };
+            self.error(start, Problem::Syntax { message })
         })
+    }
+
+    /// Whether a backslash stands at a byte of the text or before it.
+    fn is_at_backslash(self, offset: usize) -> bool {
+        let bytes = self.text.as_bytes();
+        [offset.checked_sub(1), Some(offset)].into_iter().flatten().any(|at| bytes.get(at) == Some(&b'\\'))
     }
 
     /// Line, from 1, of a byte of the text.

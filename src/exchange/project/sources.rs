@@ -223,6 +223,9 @@ pub(super) fn channel(name: &str, structure: &Structure) -> Result<String, Probl
     let (word, label) = name.trim().split_once('@').ok_or_else(wrong)?;
     let quantity = Quantity::from_word(&word.trim().to_lowercase()).ok_or_else(wrong)?;
     let label = label.trim();
+    if label.ends_with(']') {
+        return Err(wrong());
+    }
     structure.require_dof(label).map_err(structure_problem)?;
     Ok(format!("{}@{label}", quantity.word()))
 }

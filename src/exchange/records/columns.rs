@@ -101,6 +101,8 @@ fn word_and_unit(name: &str) -> (String, Option<String>) {
         "rad_s" => "rad/s",
         "n" => "N",
         "kn" => "kN",
+        // Names in small letters say moments so, not nanometres.
+        "nm" => "Nm",
         other => other,
     };
     let known = LabUnit::from_name(unit).is_some() || matches!(unit, "hz" | "khz" | "rad/s");

@@ -59,6 +59,10 @@ pub enum RecordProblem {
     NoHeader,
     #[error("the first column is \"{found}\"; it must be the time in seconds, named time [s]")]
     NoTime { found: String },
+    #[error(
+        "the time has no unit; name it time [s] where it is in seconds, with the units of the other columns in their names too"
+    )]
+    NoTimeUnit,
     #[error("the time is in \"{unit}\"; give it in seconds and name it time [s]")]
     TimeUnit { unit: String },
     #[error("the only column is the time; separate the columns by commas and name one QUANTITY@DOF [UNIT] a channel")]
@@ -87,6 +91,8 @@ pub enum RecordProblem {
     NotFinite { text: String },
     #[error("sample {row} is {value:e} (SI units), more than any sensor reads; mend the number or remove the row")]
     BeyondMeasure { row: usize, value: f64 },
+    #[error("{value:e} (SI units) is more than any sensor reads; mend the number or remove the row")]
+    TooLarge { value: f64 },
     #[error("time {time} s follows {before} s; sort the rows by time")]
     TimeGoesBack { time: f64, before: f64 },
     #[error("{problem}")]

@@ -96,7 +96,7 @@ impl Row {
         if run.is_empty() {
             return Err(table.error(column(0), RecordProblem::EmptyCell));
         }
-        let frequency_hz = table.number(column(1))?;
+        let frequency_hz = table.reading(column(1), 1.0)?;
         if frequency_hz <= 0.0 {
             let text = quote(table.bytes(column(1)));
             return Err(table.error(column(1), RecordProblem::BadFrequency { text }));
@@ -109,11 +109,12 @@ impl Row {
             let problem = RecordProblem::BadHarmonic { text: quote(number), most: HIGHEST_HARMONIC };
             return Err(table.error(column(3), problem));
         };
-        let amplitude = c64::new(table.number(column(4))?, -table.number(column(5))?) * unit.to_si;
+        let [cos, sin] = [column(4), column(5)].map(|place| table.reading(place, unit.to_si));
+        let amplitude = c64::new(cos?, -sin?);
         let mut deviations = [0.0; 2];
         for (i, deviation) in deviations.iter_mut().enumerate() {
             let Some(place) = columns[6 + i] else { continue };
-            *deviation = table.number(place)? * unit.to_si;
+            *deviation = table.reading(place, unit.to_si)?;
             if *deviation < 0.0 {
                 let text = quote(table.bytes(place));
                 return Err(table.error(place, RecordProblem::BadDeviation { text }));

@@ -29,7 +29,9 @@ pub(crate) fn contents(path: &Path) -> Result<(Contents, Structure), RecordFileE
     let mut table = Table::open(&bytes, at)?;
     let column = table.header.iter().position(|name| name.eq_ignore_ascii_case("channel"));
     let mut points = Points::default();
-    let Some(column) = column else {
+    // Tables of other programs have a column of that name as well.
+    let numbered = table.header.iter().any(|name| ["harmonic", "cos"].iter().any(|own| name.eq_ignore_ascii_case(own)));
+    let Some(column) = column.filter(|_| numbered) else {
         table.header.iter().skip(1).for_each(|cell| points.add(cell));
         return Ok((Contents::Time, points.structure()));
     };

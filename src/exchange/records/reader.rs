@@ -141,6 +141,9 @@ fn check_time_column(name: &str) -> Result<(), RecordProblem> {
         Some("s") => Ok(()),
         Some(_) => {
             let unit = name.trim().get(4..).unwrap_or_default().trim().trim_matches(|c| "[]()".contains(c));
+            if unit.is_empty() {
+                return Err(RecordProblem::NoTimeUnit);
+            }
             Err(RecordProblem::TimeUnit { unit: quote(unit.as_bytes()) })
         }
         None if name.replace(',', ".").parse::<f64>().is_ok() => Err(RecordProblem::NoHeader),

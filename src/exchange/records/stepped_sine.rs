@@ -177,15 +177,15 @@ fn run(
     number: usize,
 ) -> Result<HarmonicsRun, RecordFileError> {
     let (column, to_hz) = layout.frequency;
-    let frequency_hz = table.number(column)? * to_hz;
+    let frequency_hz = table.reading(column, to_hz)?;
     if frequency_hz <= 0.0 {
         let text = quote(table.bytes(column));
         return Err(table.error(column, RecordProblem::BadFrequency { text }));
     }
     let mut channels = Vec::new();
     for column in &layout.channels {
-        let size = table.number(column.amplitude)? * column.unit.to_si;
-        let phase = column.phase.map_or(Ok(0.0), |(place, unit)| table.number(place).map(|phase| phase * unit))?;
+        let size = table.reading(column.amplitude, column.unit.to_si)?;
+        let phase = column.phase.map_or(Ok(0.0), |(place, unit)| table.reading(place, unit))?;
         let amplitude = c64::new(0.0, phase).exp() * size * turn(column.channel.quantity, stepped.phase_of);
         channels.push(ChannelFit {
             channel: column.channel.clone(),
@@ -276,6 +276,9 @@ mod tests {
         assert!(phase.contains("acc@1 has no phase"), "{phase}");
         let force = said("frequency_hz,acc@1 [g],phase_deg\n1,1,1\n");
         assert!(force.contains("no force"), "{force}");
+        let large = said("frequency_hz,force@1 [N],acc@1 [g],phase_deg\n1,1,2e30,1\n");
+        assert!(large.starts_with("t.csv, line 2, acc@1 [g]: 1.96"), "{large}");
+        assert!(large.contains("is more than any sensor reads"), "{large}");
         let level = said("level,frequency_hz,force@1 [N],acc@1 [g],phase_deg\n1.5,1,1,1,1\n");
         assert!(level.contains("line 2, level: \"1.5\" is not the number of a level"), "{level}");
     }

@@ -1,6 +1,7 @@
 //! A table of separated values as bytes: which separator, which decimal sign, where each row stands.
 
 use super::error::{At, RecordFileError, RecordProblem};
+use crate::measurement::record::MOST;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
 /// Longest text that an error message repeats.
@@ -128,6 +129,15 @@ impl<'a> Table<'a> {
             None => Err(self.error(column, RecordProblem::NotANumber { text: quote(cell) })),
         }
     }
+
+    /// A number of a sensor in a cell of the current row, times `to_si`: what none reads is refused.
+    pub(super) fn reading(&self, column: usize, to_si: f64) -> Result<f64, RecordFileError> {
+        let value = self.number(column)? * to_si;
+        if value.abs() <= MOST {
+            return Ok(value);
+        }
+        Err(self.error(column, RecordProblem::TooLarge { value }))
+    }
 }
 
 /// The start of a text for a message: one line, not too long.
@@ -163,7 +173,7 @@ fn plain_text(bytes: &[u8]) -> Result<&[u8], RecordProblem> {
         // Text of two bytes a letter has a zero in every second place; anything else with zeros is no text.
         let pairs = start.chunks_exact(2);
         let wide = |i: usize| pairs.clone().filter(|pair| pair[i] == 0).count() * 10 > pairs.len() * 8;
-        return Err(if wide(0) || wide(1) { RecordProblem::Utf16 } else { RecordProblem::Binary });
+        return Err(if wide(0) == wide(1) { RecordProblem::Binary } else { RecordProblem::Utf16 });
     }
     if text.iter().all(u8::is_ascii_whitespace) { Err(RecordProblem::Empty) } else { Ok(text) }
 }

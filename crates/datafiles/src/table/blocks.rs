@@ -1,7 +1,7 @@
 //! Blocks of numbers in rows that come one by one.
 
 use super::block::{Block, Numbers};
-use super::cell::Cell;
+use super::cell::{Cell, no_number};
 use super::header_line::HeaderLine;
 use super::moment::date_and_time;
 use super::text_columns::{self, Run};
@@ -115,11 +115,7 @@ impl Blocks {
                 let Cell::Word(word) = &cells[at] else { return Ok(()) };
                 return Err(Fault::line(
                     line,
-                    format!(
-                        "column {}: \"{}\" is not a number; write one such as 1.25e-3, or leave the cell empty",
-                        at + 1,
-                        one_line(word, 40)
-                    ),
+                    format!("column {}: \"{}\" {}", at + 1, one_line(word, 40), no_number(word)),
                 ));
             }
             if comment {

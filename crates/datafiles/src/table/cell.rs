@@ -51,6 +51,23 @@ impl Cell {
     }
 }
 
+/// What is wrong with a word where a number must stand, and how to mend it. Recorders write their own words where the range was
+/// exceeded.
+pub(crate) fn no_number(word: &str) -> &'static str {
+    let plain: String = word.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
+    let exceeded = matches!(word.chars().next(), Some('>' | '<')) && word.len() > 1;
+    if exceeded
+        || matches!(
+            plain.as_str(),
+            "ovld" | "ovl" | "ol" | "ovr" | "ovf" | "over" | "overload" | "overflow" | "overrange"
+        )
+    {
+        "says an overload, and no number was recorded; measure again in a larger range, or remove the row"
+    } else {
+        "is not a number; write one such as 1.25e-3, or remove the row"
+    }
+}
+
 /// `(1.0+2.0j)`, `1.0-2.0i`, `2j`.
 fn complex(text: &str, comma: bool) -> Option<[f64; 2]> {
     let inner = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(text).trim();
@@ -85,8 +102,22 @@ mod tests {
         assert_eq!(Cell::parse("1.234,5", true), Cell::Real(1234.5));
         assert_eq!(Cell::parse("-1,234,567.5", false), Cell::Real(-1_234_567.5));
         assert_eq!(Cell::parse("1'234.5", false), Cell::Real(1234.5));
+        assert_eq!(Cell::parse("-1 234 567,5", true), Cell::Real(-1_234_567.5));
+        assert_eq!(Cell::parse("1\u{202f}234,5", true), Cell::Real(1234.5));
+        assert_eq!(Cell::parse("12\u{a0}345.5", false), Cell::Real(12_345.5));
+        assert_eq!(Cell::parse("1 23,5", true), Cell::Word("1 23,5".into()));
         assert_eq!(Cell::parse("1.23,5", true), Cell::Word("1.23,5".into()));
         assert_eq!(Cell::parse("infinite", false), Cell::Word("infinite".into()));
+    }
+
+    #[test]
+    fn words_of_an_overload() {
+        for word in ["OVLD", "Overload", "OL", ">5.0", "+OVER", "#OVR"] {
+            assert!(no_number(word).starts_with("says an overload"), "{word}");
+        }
+        for word in ["x", "-", "?", ">", "****"] {
+            assert!(no_number(word).starts_with("is not a number"), "{word}");
+        }
     }
 
     #[test]

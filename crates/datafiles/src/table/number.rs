@@ -35,9 +35,10 @@ pub(crate) fn number(text: &str, comma: bool) -> Option<f64> {
     }
 }
 
-/// A number with signs between its thousands and a decimal sign: `1.234,5`, `1,234.5`, `1'234.5`.
+/// A number with signs between its thousands and a decimal sign: `1.234,5`, `1,234.5`, `1'234.5`, `1 234,5` with blanks of any width.
 fn grouped(text: &str, comma: bool) -> Option<f64> {
-    let (groups, decimal) = if comma { (['.', '\''], ',') } else { ([',', '\''], '.') };
+    let (other, decimal) = if comma { ('.', ',') } else { (',', '.') };
+    let groups = [other, '\'', ' ', '\u{a0}', '\u{202f}', '\u{2009}'];
     let (whole, fraction) = text.split_once(decimal)?;
     let letter = groups.into_iter().find(|letter| whole.contains(*letter))?;
     let mut parts = whole.trim_start_matches(['+', '-']).split(letter);

@@ -93,6 +93,11 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
                 unit.clone_into(&mut set.axis_unit);
                 set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}").into());
             }
+            // Seconds are seldom whole, milliseconds and numbers of samples are.
+            if let Some(step) = step.filter(|step| counted.is_none() && *step >= 1.0 && step.fract() == 0.0) {
+                let text = format!("the times have no unit and rise by {step}: they are taken in s");
+                set.notes.push(Note::new(Defect::TimesCount, text));
+            }
         }
         if header.names[at].is_empty() {
             let text = format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1);

@@ -4,6 +4,7 @@ mod decode;
 mod dialect;
 mod lvm;
 mod names;
+mod torn;
 
 use crate::contents::{Contents, Format};
 use crate::error::{Fault, Read};
@@ -52,6 +53,9 @@ fn table(text: &str) -> Read<(Contents, TableSource)> {
             "is text without a row of numbers; export the measurement with its samples (names of the columns of another file: import both together)",
         ));
     };
+    if let Some((line, problem)) = torn::decimal_commas(text, dialect) {
+        return Err(Fault::line(line, problem));
+    }
     let mut blocks = Blocks::default();
     let mut cells = Vec::new();
     let mut last = 0;

@@ -24,10 +24,7 @@ impl<'a> Card<'a> {
 
 /// Cards of the bulk data in a text.
 pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
-    let begin = text.lines().position(|line| {
-        let mut words = line.split_whitespace().map(str::to_uppercase);
-        words.next().as_deref() == Some("BEGIN") && words.next().as_deref() == Some("BULK")
-    });
+    let begin = text.lines().position(is_begin);
     let mut cards: Vec<Card<'_>> = Vec::new();
     for (index, line) in text.lines().enumerate().skip(begin.map_or(0, |line| line + 1)) {
         let line = line.split('$').next().unwrap_or_default().trim_end();
@@ -49,6 +46,13 @@ pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
         cards.push(Card { line: index + 1, name, fields });
     }
     cards
+}
+
+/// Whether a line is `BEGIN BULK`.
+pub(super) fn is_begin(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    let [first, second] = [words.next(), words.next()].map(Option::unwrap_or_default);
+    first.eq_ignore_ascii_case("begin") && second.eq_ignore_ascii_case("bulk")
 }
 
 /// Name field and data fields: always eight, or four of a large line.

@@ -12,7 +12,7 @@ use crate::edges::{Edges, Shape};
 use crate::error::{FileError, Problem};
 use crate::number::{real, whole};
 use crate::{Geometry, Matrix, Node, Turned};
-use cards::{Card, cards};
+use cards::{Card, cards, is_begin};
 use coordinates::Systems;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -38,10 +38,8 @@ pub fn read(text: &str, file: &str) -> Result<Bulk, FileError> {
 /// Reads a deck with the files that it includes: the text of each and its name in messages.
 pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
     let texts: Vec<Cow<'_, str>> = parts.iter().map(|(text, _)| without_tabs(text)).collect();
-    if let (Some(text), Some((_, file))) = (texts.first(), parts.first())
-        && let Some(line) = cut_short(text)
-    {
-        return Err(FileError::line(file, line, Problem::EndsEarly { what: "the bulk data (no ENDDATA ends them)" }));
+    if let Some((part, line)) = cut_short(&texts) {
+        return Err(FileError::line(parts[part].1, line, Problem::NoEnd));
     }
     let mut reader = Reader::default();
     for (text, (_, file)) in texts.iter().zip(parts) {
@@ -52,15 +50,15 @@ pub fn read_parts(parts: &[(&str, &str)]) -> Result<Bulk, FileError> {
     reader.finish(parts.first().map_or("", |(_, file)| *file))
 }
 
-/// The last line of a deck whose bulk data begin and do not end: of a matrix any number of columns may be missing.
-fn cut_short(text: &str) -> Option<usize> {
-    let begins = text.lines().any(|line| {
-        let mut words = line.split_whitespace();
-        let [first, second] = [words.next(), words.next()].map(Option::unwrap_or_default);
-        first.eq_ignore_ascii_case("begin") && second.eq_ignore_ascii_case("bulk")
-    });
+/// Part and last line of a deck whose bulk data begin and do not end: of a matrix any number of columns may be missing. `ENDDATA`
+/// may stand in a file that is included; where these are not at hand, nothing can be said.
+fn cut_short(texts: &[Cow<'_, str>]) -> Option<(usize, usize)> {
+    let begins = |text: &Cow<'_, str>| text.lines().any(is_begin);
     let is_end = |line: &str| line.trim_start().get(..7).is_some_and(|word| word.eq_ignore_ascii_case("enddata"));
-    (begins && !text.lines().any(is_end)).then(|| text.lines().count())
+    let ends = texts.iter().any(|text| text.lines().any(is_end));
+    let unread = texts.len() == 1 && !includes(&texts[0]).is_empty();
+    let part = texts.iter().position(begins).filter(|_| !ends && !unread)?;
+    Some((part, texts[part].lines().count()))
 }
 
 /// Files that a deck includes, with the lines (from 1) that say so.
@@ -270,14 +268,29 @@ ENDDATA
     }
 
     #[test]
-    fn a_deck_without_its_end_was_cut_short() {
+    fn a_deck_without_its_end_may_be_cut_short() {
         for lines in [5, 13] {
             let cut: String = SMALL.lines().take(lines).map(|line| format!("{line}\n")).collect();
             let said = read(&cut, "m.bdf").unwrap_err().to_string();
-            let expected =
-                "the file ends in the middle of the bulk data (no ENDDATA ends them); copy or export it again";
+            let expected = "no ENDDATA follows BEGIN BULK, so the file may have been cut short; copy or export it again, or, where it is \
+                            whole, add a last line ENDDATA";
             assert_eq!(said, format!("m.bdf:{lines}: {expected}"));
         }
+    }
+
+    #[test]
+    fn the_end_of_a_deck_may_stand_in_a_file_that_it_includes() {
+        let deck = ("SOL 103\nBEGIN BULK\nINCLUDE 'mesh.bdf'\n", "m.bdf");
+        let mesh = ("GRID,1,,0.\nENDDATA\n", "mesh.bdf");
+        assert_eq!(read_parts(&[deck, mesh]).unwrap().geometry.nodes.len(), 1);
+        // The bulk data as a whole in a file of their own, below the case control of another.
+        let parts = [("SOL 103\nINCLUDE 'bulk.bdf'\n", "m.bdf"), ("BEGIN BULK\nGRID,1,,0.\n", "bulk.bdf")];
+        let said = read_parts(&parts).unwrap_err().to_string();
+        assert!(said.starts_with("bulk.bdf:2: no ENDDATA follows BEGIN BULK"), "{said}");
+        // Files that are not at hand may have it.
+        assert!(read(deck.0, deck.1).is_ok());
+        // What is included, or nothing but bulk data, needs none.
+        assert!(read("GRID,1,,0.\n", "mesh.bdf").is_ok());
     }
 
     #[test]

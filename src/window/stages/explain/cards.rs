@@ -212,7 +212,8 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
 /// The commands that take the corrections over.
 pub(super) fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
     let known = |index: usize| scene.explained.known(scene.document, index);
-    corrections::adopt(&diagnosis.corrections, &known, scene.document.session().document())
+    let document = scene.document.session().document();
+    corrections::adopt_all(&diagnosis.corrections, diagnosis.verdict, &known, document)
 }
 
 /// What a correction corrects.
