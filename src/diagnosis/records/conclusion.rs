@@ -169,12 +169,9 @@ impl Search<'_> {
             };
             return Ok(());
         }
-        for suggestion in &mut diagnosis.suggestions {
-            if suggestion.probability > UNLIKELY {
-                self.complete(suggestion, (told, error), fits)?;
-            } else if !self.control.is_late() {
-                suggestion.error_after = self.promised(told, std::slice::from_ref(&suggestion.added.source))?;
-            }
+        let late = self.control.is_late();
+        for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY || !late) {
+            self.complete(suggestion, (told, error), fits)?;
         }
         let words = self.words_on_all(told, error, diagnosis)?;
         if let Some(first) = diagnosis.suggestions.first_mut() {
@@ -221,7 +218,8 @@ impl Search<'_> {
         fits: &[FittedRecords],
     ) -> Result<(), RecordError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
-        if let Some(fit) = fits.iter().find(has).filter(|_| !self.control.is_late()) {
+        let likely = suggestion.probability > UNLIKELY;
+        if let Some(fit) = fits.iter().find(has).filter(|_| likely && !self.control.is_late()) {
             suggestion.held_out_error_after = self.held_out(self.levels.len() - 1, fit)?;
         }
         suggestion.added = added_as_told(&added(told), &suggestion.added);

@@ -2,7 +2,7 @@
 //! them.
 
 use super::data::RecordError;
-use super::evidence::scale;
+use super::evidence::{AGREES, misfit, scale};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::rivals::is_same_set;
@@ -11,7 +11,7 @@ use super::search::Search;
 use crate::effects::{Place, Source};
 
 /// Places next to that of the best at which its law is begun.
-const BESIDE: usize = 3;
+const BESIDE: usize = 2;
 /// Squared residual of the fit of a law at a place over that of the best from which on it is begun again, and that of the new start up to
 /// which. An elastic slider beside its place (looked-at seed 406 of decays) began 4 times above and ended alike.
 const MORE: f64 = 1.05;
@@ -64,18 +64,20 @@ impl Search<'_> {
                 Some((problem.left(&start).ok()?.total(scale(best)), start))
             };
             let nearest = all.filter_map(start).min_by(|a, b| a.0.total_cmp(&b.0));
-            nearest.filter(|(left, start)| self.is_worth_beginning(*left, start, found))
+            nearest.filter(|(left, start)| self.is_worth_beginning(level, *left, start, found))
         };
         let mut few: Vec<(f64, FittedRecords)> = self.control.map(places.len(), begun).into_iter().flatten().collect();
         few.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(few.into_iter().take(BESIDE).map(|(_, start)| start).collect())
     }
 
-    /// Whether a start that leaves so much is to be fitted: nobody fitted its effects, or the fit of them leaves clearly more than the best
-    /// of `found` while the start does not leave hopelessly much: that fit may have ended in another local minimum.
-    fn is_worth_beginning(&self, left: f64, start: &FittedRecords, found: &[FittedRecords]) -> bool {
+    /// Whether a start that leaves so much is to be fitted: nobody fitted its effects; or the fit of them leaves clearly more than the best
+    /// of `found`, while the start does not leave hopelessly much: that fit may have ended in another local minimum. On parts that the
+    /// best explains it does not matter.
+    fn is_worth_beginning(&self, level: usize, left: f64, start: &FittedRecords, found: &[FittedRecords]) -> bool {
         let Some(best) = found.first() else { return true };
-        let near = left < NEAR * (best.chi_square + scale(best) * best.prior);
+        let open = level + 1 == self.levels.len() || misfit(best) > AGREES;
+        let near = open && left < NEAR * (best.chi_square + scale(best) * best.prior);
         match found.iter().find(|f| is_same_set(&f.effects, &start.effects)) {
             Some(own) => near && own.chi_square > MORE * best.chi_square,
             None => near || !self.given_up.holds(&start.effects, best),
