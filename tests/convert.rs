@@ -89,7 +89,7 @@ fn files_of_laboratories_are_read_as_import_reads_them() {
     let text = fs::read_to_string(&to).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], "time [s],force@1 [N],disp@1 [m],disp@2 [rad]");
-    assert_eq!((lines.len(), lines[3]), (21, "0.002,1e3,1.5e-3,3.141592653589793"));
+    assert_eq!((lines.len(), lines[3]), (21, "0.002,1e3,0.0015,3.141592653589793"));
 }
 
 #[test]

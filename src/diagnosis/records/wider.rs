@@ -95,8 +95,10 @@ impl Search<'_> {
         let own = test.gain(law).unwrap_or(0.0);
         let most = (NEAR - 1.0) * fit.chi_square.max(fit.count as f64);
         let near = |s: &Scored| own - s.gain < most;
-        let mut few: Vec<Scored> = shapes.flat_map(|list| list.into_iter().filter(near).take(BEGUN)).collect();
-        few.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        // The best shape of every law before the second of any: laws of one kin would leave no room for others.
+        let ranked = shapes.flat_map(|list| list.into_iter().filter(near).take(BEGUN).enumerate());
+        let mut few: Vec<(usize, Scored)> = ranked.collect();
+        few.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.gain.total_cmp(&a.1.gain)));
         few.truncate(BEGUN_OF_ALL);
         let in_place = |scored: Scored| {
             let source = self.alike(law, scored.source, (leg, test.motion(), level))?;
@@ -105,7 +107,7 @@ impl Search<'_> {
             start.effects.push(source);
             Some(start)
         };
-        Ok(few.into_iter().filter_map(in_place).collect())
+        Ok(few.into_iter().filter_map(|(_, scored)| in_place(scored)).collect())
     }
 
     /// A source scaled so that its force along the motion is that of `law`.
