@@ -122,8 +122,11 @@ fn gaps(record: &Record) -> Option<String> {
 
 fn repeated_times(record: &Record) -> Option<String> {
     let count = record.time().windows(2).filter(|pair| pair[0] == pair[1]).count();
-    let stand = if count == 1 { "time stands" } else { "times stand" };
-    (count > 0).then(|| format!("{count} {stand} twice"))
+    match count {
+        0 => None,
+        1 => Some("1 time stands twice".to_string()),
+        _ => Some(format!("{count} times stand twice")),
+    }
 }
 
 /// Rows whose every channel repeats the row before, where the fit says that at least one should have moved.
