@@ -183,10 +183,11 @@ mod tests {
                 reference.estimator().fit(effects, REFITTED, &SEARCH, &Vec::new()).unwrap()
             };
             let from = fitted(&stated, &[hidden()]);
+            let stated_cost = cost(&stated, Some(&from));
             let idle = source(Effect::Coulomb, &[1], &[1e-6]);
             let (converged, only) = stated.converged(from.clone(), &SEARCH, UPDATES).unwrap();
             let least = cost(&converged, Some(&only));
-            assert!(least < cost(&stated, Some(&from)));
+            assert!(least < stated_cost, "{least} {stated_cost}");
             let before = least + 4.0 * EVIDENCE;
             let more = fitted(&converged, &[hidden(), idle.clone()]);
             let another = fitted(&converged, &[idle]);

@@ -86,23 +86,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
     if let Some((at, _)) = axis {
-        set.axis_unit = axis_unit(&header, at, kind, block.columns[at].clock);
-        if kind == Kind::Time && header.units[at].is_empty() && !block.columns[at].clock {
-            let counted = block.columns[at].re.first().copied().and_then(unit_since_1970);
-            if let Some(unit) = counted {
-                unit.clone_into(&mut set.axis_unit);
-                set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}").into());
-            }
-            // Seconds are seldom whole, milliseconds and numbers of samples are.
-            if let Some(step) = step.filter(|step| counted.is_none() && *step >= 1.0 && step.fract() == 0.0) {
-                let text = format!("the times have no unit and rise by {step}: they are taken in s");
-                set.notes.push(Note::new(Defect::TimesCount, text));
-            }
-        }
-        if header.names[at].is_empty() {
-            let text = format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1);
-            set.notes.push(text.into());
-        }
+        name_axis(&mut set, &header, (at, &block.columns[at]), step);
     }
     for (i, numbers) in block.columns.into_iter().enumerate() {
         if block.texts.contains(&i) || numbers.re.is_empty() && number::number(&header.names[i], false).is_some() {
@@ -152,6 +136,27 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     }
     columns.axis = axis_values;
     (set, columns)
+}
+
+/// Gives a set the unit of its axis, column number `at`, whose values are `step` apart, and says what is assumed of it.
+fn name_axis(set: &mut Set, header: &header::Header, (at, column): (usize, &Numbers), step: Option<f64>) {
+    set.axis_unit = axis_unit(header, at, set.kind, column.clock);
+    if set.kind == Kind::Time && header.units[at].is_empty() && !column.clock {
+        let counted = column.re.first().copied().and_then(unit_since_1970);
+        if let Some(unit) = counted {
+            unit.clone_into(&mut set.axis_unit);
+            set.notes.push(format!("the times count from 1970: by their size they are taken in {unit}").into());
+        }
+        // Seconds are seldom whole, milliseconds and numbers of samples are.
+        if let Some(step) = step.filter(|step| counted.is_none() && *step >= 1.0 && step.fract() == 0.0) {
+            let text = format!("the times have no unit and rise by {step}: they are taken in s");
+            set.notes.push(Note::new(Defect::TimesCount, text));
+        }
+    }
+    if header.names[at].is_empty() {
+        let text = format!("column {} rises evenly and has no name: it is taken as the time in s", at + 1);
+        set.notes.push(text.into());
+    }
 }
 
 /// Says that the table was cut off, or that its times are not in order.
