@@ -125,7 +125,7 @@ impl Effect {
 
     /// Laws of several parameters that this one may have been taken for: those that contain it or one of its limits, and
     /// itself if it has several parameters.
-    pub fn wider(self) -> Vec<Self> {
+    pub fn generalisations(self) -> Vec<Self> {
         let common = |other: Self| other.limits().any(|limit| limit == self || self.contains(limit));
         let kept = |&other: &Self| other.parameters().len() > 1 && (other == self || common(other));
         Self::ALL.into_iter().filter(kept).collect()

@@ -94,9 +94,12 @@ fn limits_are_the_simpler_law_where_they_hold() {
 
 #[test]
 fn nested_laws_are_known() {
-    assert_eq!(Effect::Quadratic.wider(), [Effect::Power]);
-    assert!(Effect::Coulomb.wider().contains(&Effect::Stribeck) && Effect::Stribeck.wider().contains(&Effect::Iwan));
-    assert!(Effect::Mass.wider().is_empty());
+    assert_eq!(Effect::Quadratic.generalisations(), [Effect::Power]);
+    assert!(
+        Effect::Coulomb.generalisations().contains(&Effect::Stribeck)
+            && Effect::Stribeck.generalisations().contains(&Effect::Iwan)
+    );
+    assert!(Effect::Mass.generalisations().is_empty());
     assert!(Effect::Iwan.contains(Effect::ElasticSlider) && !Effect::ElasticSlider.contains(Effect::Iwan));
     for effect in Effect::ALL {
         assert!(!effect.contains(effect), "{effect}");

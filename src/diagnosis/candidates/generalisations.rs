@@ -23,7 +23,8 @@ impl ReferenceModel<'_> {
     ) -> Result<Vec<FittedModel>, DiagnosisError> {
         let mut fits = Vec::new();
         for source in &best.effects {
-            let laws: Vec<Effect> = source.effect.wider().into_iter().filter(|&effect| wanted(effect)).collect();
+            let laws: Vec<Effect> =
+                source.effect.generalisations().into_iter().filter(|&effect| wanted(effect)).collect();
             if laws.is_empty() {
                 continue;
             }

@@ -6,27 +6,27 @@ use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
 use super::problem::beyond_priors;
 use super::search::{Search, SetsBySize};
-use super::telling::{added, corrections, corrections_of_parts, suggestions, words};
-use super::told::added_as_told;
+use super::stated_fit::added_as_stated;
+use super::suggestions::{added, corrections, corrections_of_parts, suggestions, words};
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, TestErrors, Verdict};
 use crate::diagnosis::updating::correction::Correction;
 use crate::math::statistics::standard_deviation;
 use crate::structure::Part;
 
-/// Error of what is told from which on the phase may be lost over the whole record, and the share of it that parts of the record
+/// Error of the stated fit from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
 
-/// Share of the promised error that is left at most, errors of the test taken out, where they are told: they make half of its square.
+/// Share of the predicted error that is left at most, errors of the test taken out, where they are stated: they make half of its square.
 const OF_THE_TEST: f64 = 0.7;
 
-/// Promised error with corrected parts over that without from which on they are told.
+/// Predicted error with corrected parts over that without from which on they are stated.
 const BETTER: f64 = 0.8;
 
 /// Rounds and steps of a fit beside a part that was corrected.
 const REFITTING: [usize; 2] = [2, 4];
 
-/// Probability up to which a suggestion is told as its fit stands, without what it predicts.
+/// Probability up to which a suggestion is stated as its fit stands, without what it predicts.
 const UNLIKELY: f64 = 1e-3;
 
 /// Probability of a suggestion from which on a test that would tell it from the first is named.
@@ -45,9 +45,9 @@ impl Search<'_> {
         let start = self.carried(bare, *level, self.levels.len() - 1)?;
         let corrected = self.corrected_whole(&start)?;
         let mut detuned = before;
-        let told = self.told(&corrected)?;
-        let error = self.promised(&told, &told.effects)?;
-        self.conclude_told((&told, error), misfit(&corrected), std::slice::from_ref(&corrected), &mut detuned)?;
+        let stated = self.stated_fit(&corrected)?;
+        let error = self.predicted_error(&stated, &stated.effects)?;
+        self.conclude_stated((&stated, error), misfit(&corrected), std::slice::from_ref(&corrected), &mut detuned)?;
         if detuned.verdict != Verdict::Unexplained {
             *diagnosis = detuned;
         }
@@ -73,10 +73,10 @@ impl Search<'_> {
         }
         diagnosis.suggestions = suggestions(self.records, &last, late)?;
         let corrections = corrections_of_parts(self.records, best);
-        // Where time is up the parts are told as the fit has them, whatever else could stand for them.
-        let told = if late && !corrections.is_empty() { None } else { Some(self.told(best)?) };
-        if let Some(told) = told.as_ref().filter(|_| corrections.is_empty()) {
-            return self.conclude_with((told, self.promised(told, &told.effects)?), &last, diagnosis);
+        // Where time is up the parts are stated as the fit has them, whatever else could stand for them.
+        let stated = if late && !corrections.is_empty() { None } else { Some(self.stated_fit(best)?) };
+        if let Some(stated) = stated.as_ref().filter(|_| corrections.is_empty()) {
+            return self.conclude_with((stated, self.predicted_error(stated, &stated.effects)?), &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
         let structure = self.structure_with(&factors(&corrections));
@@ -84,12 +84,12 @@ impl Search<'_> {
         let known = (self.excluded, self.stated, self.supports);
         let search = Search::new(&records, &plain, known, self.control);
         let fits: Vec<FittedRecords> = last.iter().map(|fit| beside_parts(fit, &records)).collect();
-        let beside_parts = search.told(&fits[0])?;
-        let left = search.promised(&beside_parts, &beside_parts.effects)?;
-        if let Some(told) = told {
-            let before = self.promised(&told, &told.effects)?;
+        let beside_parts = search.stated_fit(&fits[0])?;
+        let left = search.predicted_error(&beside_parts, &beside_parts.effects)?;
+        if let Some(stated) = stated {
+            let before = self.predicted_error(&stated, &stated.effects)?;
             if left > BETTER * before {
-                return self.conclude_with((&told, before), &last, diagnosis);
+                return self.conclude_with((&stated, before), &last, diagnosis);
             }
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
@@ -101,29 +101,29 @@ impl Search<'_> {
     fn believable(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
         let lean: Vec<FittedRecords> = fits.iter().map(beyond_priors).collect();
         let (Some(best), Some(first)) = (fits.first(), lean.first()) else { return Ok(fits) };
-        let keeps = self.promised_with_parts(best)? < BETTER * self.promised_with_parts(first)?;
+        let keeps = self.predicted_error_with_parts(best)? < BETTER * self.predicted_error_with_parts(first)?;
         Ok(if keeps { fits } else { lean })
     }
 
     /// What comparing the project shows with all corrections of `fit` and its effects.
-    fn promised_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordError> {
+    fn predicted_error_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordError> {
         let structure = self.structure_with(&factors(&corrections_of_parts(self.records, fit)));
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
         let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
-        search.promised(&beside_parts(fit, &records), &fit.effects)
+        search.predicted_error(&beside_parts(fit, &records), &fit.effects)
     }
 
-    /// Concludes with what is told, with the error that it promises, masses and springs that are errors of the model made corrections of
+    /// Concludes with a stated fit, with the error that it predicts, masses and springs that are errors of the model made corrections of
     /// it.
     fn conclude_with(
         &self,
-        (told, error): (&FittedRecords, f64),
+        (stated, error): (&FittedRecords, f64),
         found: &[FittedRecords],
         diagnosis: &mut Diagnosis,
     ) -> Result<(), RecordError> {
-        let model_errors = ModelErrors::of(self.records.structure, told);
+        let model_errors = ModelErrors::of(self.records.structure, stated);
         if model_errors.sources.is_empty() {
-            return self.conclude_told((told, error), misfit(told), found, diagnosis);
+            return self.conclude_stated((stated, error), misfit(stated), found, diagnosis);
         }
         // What a spring or mass changes of a part is made a number of the structure, and the rest is fitted beside it.
         let without = |fit: &FittedRecords| {
@@ -136,11 +136,11 @@ impl Search<'_> {
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
         let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
         let fits: Vec<FittedRecords> = found.iter().map(without).collect();
-        let corrected = search.told(&search.corrected_whole(&fits[0])?)?;
+        let corrected = search.stated_fit(&search.corrected_whole(&fits[0])?)?;
         model_errors.corrections.iter().for_each(|more| correct(&mut diagnosis.corrections, more));
-        let left = if corrected.effects.is_empty() { misfit(told) } else { misfit(&corrected) };
-        let error = search.promised(&corrected, &corrected.effects)?;
-        search.conclude_told((&corrected, error), left, &fits, diagnosis)
+        let left = if corrected.effects.is_empty() { misfit(stated) } else { misfit(&corrected) };
+        let error = search.predicted_error(&corrected, &corrected.effects)?;
+        search.conclude_stated((&corrected, error), left, &fits, diagnosis)
     }
 
     /// A fit on whole records, with deviations of its own.
@@ -148,19 +148,19 @@ impl Search<'_> {
         self.fit(self.levels.len() - 1, fit, 1.0, REFITTING)
     }
 
-    /// Says what is told, with the error that it promises; `left` is the misfit by which it is judged, `fits` are the sets of the last
+    /// Reports a stated fit, with the error that it predicts; `left` is the misfit by which it is judged, `fits` are the sets of the last
     /// size.
-    fn conclude_told(
+    fn conclude_stated(
         &self,
-        (told, error): (&FittedRecords, f64),
+        (stated, error): (&FittedRecords, f64),
         left: f64,
         fits: &[FittedRecords],
         diagnosis: &mut Diagnosis,
     ) -> Result<(), RecordError> {
-        diagnosis.steps.push(Step { added: added(told), error, misfit: misfit(told) });
-        diagnosis.corrections.extend(corrections(self.records, told));
-        diagnosis.test_errors = self.test_errors(told, error)?;
-        if told.effects.is_empty() {
+        diagnosis.steps.push(Step { added: added(stated), error, misfit: misfit(stated) });
+        diagnosis.corrections.extend(corrections(self.records, stated));
+        diagnosis.test_errors = self.test_errors(stated, error)?;
+        if stated.effects.is_empty() {
             diagnosis.suggestions.clear();
             diagnosis.verdict = match left {
                 left if left > self.records.agreement(AGREES) => Verdict::Unexplained,
@@ -171,9 +171,9 @@ impl Search<'_> {
         }
         let late = self.control.is_late();
         for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY || !late) {
-            self.complete(suggestion, (told, error), fits)?;
+            self.complete(suggestion, (stated, error), fits)?;
         }
-        let words = self.words_on_all(told, error, diagnosis)?;
+        let words = self.words_on_all(stated, error, diagnosis)?;
         if let Some(first) = diagnosis.suggestions.first_mut() {
             first.evidence.extend(words);
         }
@@ -191,7 +191,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Whether other effects than those that are told are still likely, and there is time to say what would tell them apart.
+    /// Whether other effects than those that are stated are still likely, and there is time to say what would tell them apart.
     fn is_open(&self, diagnosis: &Diagnosis) -> bool {
         let sure = diagnosis.suggestions.first().map_or(1.0, |s| s.probability);
         let rivals = diagnosis.suggestions.iter().filter(|s| s.probability > OPEN).count();
@@ -210,11 +210,11 @@ impl Search<'_> {
         }
     }
 
-    /// Parameters, errors and words of a suggestion as they stand beside what is told.
+    /// Parameters, errors and words of a suggestion as they stand beside the stated fit.
     fn complete(
         &self,
         suggestion: &mut Suggestion,
-        (told, error): (&FittedRecords, f64),
+        (stated, error): (&FittedRecords, f64),
         fits: &[FittedRecords],
     ) -> Result<(), RecordError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
@@ -222,36 +222,36 @@ impl Search<'_> {
         if let Some(fit) = fits.iter().find(has).filter(|_| likely && !self.control.is_late()) {
             suggestion.held_out_error_after = self.held_out(self.levels.len() - 1, fit)?;
         }
-        suggestion.added = added_as_told(&added(told), &suggestion.added);
+        suggestion.added = added_as_stated(&added(stated), &suggestion.added);
         // A member of the set is added with the set.
-        let in_set = told.effects.iter().any(|e| e.is_same(&suggestion.added.source));
+        let in_set = stated.effects.iter().any(|e| e.is_same(&suggestion.added.source));
         suggestion.error_after =
-            if in_set { error } else { self.promised(told, std::slice::from_ref(&suggestion.added.source))? };
+            if in_set { error } else { self.predicted_error(stated, std::slice::from_ref(&suggestion.added.source))? };
         suggestion.evidence = words(&suggestion.added.source, suggestion.error_after);
         Ok(())
     }
 
-    /// What errors of the test - frequencies of each record, zeros, gains - add to the promised `error`; `None` where that is little.
-    fn test_errors(&self, told: &FittedRecords, error: f64) -> Result<Option<TestErrors>, RecordError> {
-        if told.shifts.len() < 2 {
+    /// What errors of the test - frequencies of each record, zeros, gains - add to the predicted `error`; `None` where that is little.
+    fn test_errors(&self, stated: &FittedRecords, error: f64) -> Result<Option<TestErrors>, RecordError> {
+        if stated.shifts.len() < 2 {
             return Ok(None);
         }
-        let error_left = told.error(self.records, 0.0, 1.0)?;
+        let error_left = stated.error(self.records, 0.0, 1.0)?;
         // A shift is that of the stiffness.
-        let frequency_scatter = 0.5 * standard_deviation(&told.shifts);
+        let frequency_scatter = 0.5 * standard_deviation(&stated.shifts);
         Ok((error_left < OF_THE_TEST * error).then_some(TestErrors { frequency_scatter, error_left }))
     }
 
-    /// What is said of all that is told together.
+    /// What is said of all effects of the stated fit together.
     fn words_on_all(
         &self,
-        told: &FittedRecords,
+        stated: &FittedRecords,
         error: f64,
         diagnosis: &Diagnosis,
     ) -> Result<Vec<String>, RecordError> {
         let mut words = Vec::new();
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
-        let count = told.effects.len();
+        let count = stated.effects.len();
         if count > 1 {
             words.push(format!("With all {count} effects the error is {:.2} %.", 100.0 * error));
         }
@@ -265,7 +265,7 @@ impl Search<'_> {
             )
         }));
         if test.is_none() && error > PHASE_LOST[0] && whole > 0 {
-            let parts = self.carried(told, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
+            let parts = self.carried(stated, whole, 0).and_then(|fit| self.quiet(0, &fit))?;
             let left = parts.error(&self.levels[0], 0.0, 1.0)?;
             if left < PHASE_LOST[1] * error {
                 words.push(format!(
@@ -274,7 +274,7 @@ impl Search<'_> {
                 ));
             }
         }
-        if misfit(told) > self.records.agreement(AGREES) && error > floor {
+        if misfit(stated) > self.records.agreement(AGREES) && error > floor {
             let error = test.map_or(error, |t| t.error_left);
             words.push(format!(
                 "That is {:.1} times the noise: the records hold more than these laws give, and no law here at any place gives it.",
@@ -339,7 +339,7 @@ fn without_unknown(diagnosis: &mut Diagnosis) {
     }
 }
 
-/// Widens the deviations of what is told by what is left beyond noise: any share of what the effects take away may be theirs.
+/// Widens the deviations of the stated fit by what is left beyond noise: any share of what the effects take away may be theirs.
 fn widen(diagnosis: &mut Diagnosis) {
     let Some(before) = diagnosis.steps.first().map(|s| s.misfit.max(1.0)) else { return };
     let share = |misfit: f64| ((misfit - 1.0).max(0.0) / before).sqrt().min(1.0);
@@ -359,9 +359,9 @@ fn widen(diagnosis: &mut Diagnosis) {
 fn is_needless(steps: &[Step]) -> bool {
     let without = steps.iter().filter(|step| step.added.is_empty());
     let corrected = without.map(|step| step.error).fold(f64::INFINITY, f64::min);
-    steps.last().is_some_and(|told| {
-        let alone = told.added.iter().all(|added| added.source.effect.is_mass_or_spring());
-        !told.added.is_empty() && alone && told.error >= corrected
+    steps.last().is_some_and(|stated| {
+        let alone = stated.added.iter().all(|added| added.source.effect.is_mass_or_spring());
+        !stated.added.is_empty() && alone && stated.error >= corrected
     })
 }
 
@@ -378,10 +378,10 @@ mod tests {
             let added = effect.map(|effect| Added { source: source(effect), deviations: vec![0.1] });
             Step { added: added.into_iter().collect(), error, misfit: 1.0 }
         };
-        let told =
+        let stated =
             |effect: Effect, error: f64| is_needless(&[step(None, 0.6), step(None, 0.013), step(Some(effect), error)]);
-        assert!(told(Effect::Mass, 0.0145) && told(Effect::Stiffness, 0.0145));
-        assert!(!told(Effect::Mass, 0.009) && !told(Effect::Viscous, 0.0145));
+        assert!(stated(Effect::Mass, 0.0145) && stated(Effect::Stiffness, 0.0145));
+        assert!(!stated(Effect::Mass, 0.009) && !stated(Effect::Viscous, 0.0145));
         assert!(!is_needless(&[step(None, 0.6)]));
     }
 

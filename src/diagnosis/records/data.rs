@@ -286,7 +286,8 @@ fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
     let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
     let limit = (1.5 * top).min(nyquist);
     let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
-    let shown = list.iter().map(|r| r.shown(modes, below, MOST_MODES, BESIDE_LIMIT * limit)).max().unwrap_or(0);
+    let shown =
+        list.iter().map(|r| r.observable_modes(modes, below, MOST_MODES, BESIDE_LIMIT * limit)).max().unwrap_or(0);
     below.max(shown).clamp(1, MOST_MODES).min(modes.len())
 }
 

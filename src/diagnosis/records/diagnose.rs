@@ -14,7 +14,7 @@ use super::evidence::{AGREES, GAIN, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{corrected_by, is_strained};
 use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
-use super::telling::{last_deviations, suggestions};
+use super::suggestions::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step};
 use crate::effects::Source;
@@ -113,7 +113,7 @@ impl Search<'_> {
     fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordError> {
         let whole = self.levels.len() - 1;
         let bare = self.carried(bare, whole, 0)?;
-        let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.corrected(&bare)?] };
+        let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.updated_model(&bare)?] };
         for level in 0..=whole {
             if level > 0 {
                 by_size.last = self.lengthened(&by_size.last, level - 1)?;

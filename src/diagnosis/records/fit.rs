@@ -6,11 +6,11 @@
 //!
 //! `u` is 1 where the model leaves noise, more where it leaves more ([`super::evidence`]).
 
+use super::chord_steps::ChordJacobian;
 use super::data::RecordError;
 use super::evidence::{alike, scale};
 use super::fitted::FittedRecords;
-use super::held::Held;
-use super::normal::{Equations, Left, Normal, solve};
+use super::normal_equations::{Equations, Left, Normal, solve};
 use super::problem::FitProblem;
 use super::variables::{scales, slopes};
 use dashpot_numerics::Cholesky;
@@ -44,36 +44,37 @@ impl FitProblem<'_> {
         Ok(self.finish(best, &scales, equations))
     }
 
-    /// The same in at most `rounds` of `steps` steps, in each of which all but the laws is differentiated once ([`Held`]).
-    pub(super) fn begin(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
-        self.begin_beside(start, rounds, &mut None)
+    /// The same in at most `rounds` of `steps` steps; in each round all variables but those of the laws are differentiated once
+    /// ([`ChordJacobian`]).
+    pub(super) fn chord_fit(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
+        self.chord_fit_from(start, rounds, &mut None)
     }
 
-    /// The same with what is `held` from a start at the same place in the first round, where there is that; what is held of the last
-    /// round is left there.
-    pub(super) fn begin_beside(
+    /// The same, in the first round with the derivatives `chord` of a start at the same place where there are any; those of the last round
+    /// are left there.
+    pub(super) fn chord_fit_from(
         &self,
         start: &FittedRecords,
         [rounds, steps]: [usize; 2],
-        held: &mut Option<Held>,
+        chord: &mut Option<ChordJacobian>,
     ) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let mut best = start.clone();
         for round in 0..rounds {
             let defect = self.defect(&best)?;
-            let normal = match held {
-                Some(held) if round == 0 => held.normal(self, &best, &scales, unit, &defect)?,
-                _ => match Held::new(self, &best, &scales, unit, &defect)? {
+            let normal = match chord {
+                Some(chord) if round == 0 => chord.normal(self, &best, &scales, unit, &defect)?,
+                _ => match ChordJacobian::new(self, &best, &scales, unit, &defect)? {
                     Some((own, normal)) => {
-                        *held = Some(own);
+                        *chord = Some(own);
                         normal
                     }
                     None => return self.improve(&best, rounds * steps),
                 },
             };
-            let Some(held) = held else { break };
-            let renewed = |at: &FittedRecords| held.normal(self, at, &scales, unit, &defect);
+            let Some(chord) = chord else { break };
+            let renewed = |at: &FittedRecords| chord.normal(self, at, &scales, unit, &defect);
             let there = Equations { normal: &renewed, left: &|at| self.left_beside(at, &defect) };
             let ended;
             let equations;

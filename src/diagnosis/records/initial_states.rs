@@ -76,7 +76,7 @@ impl Search<'_> {
         start: &FittedRecords,
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        self.problem(level, FIRST).begin(start, rounds)
+        self.problem(level, FIRST).chord_fit(start, rounds)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::fitted::FittedRecords;
 use super::search::factors_of;
-use super::telling::added;
+use super::suggestions::added;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{part_of, size_of};

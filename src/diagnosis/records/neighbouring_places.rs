@@ -5,7 +5,7 @@ use super::data::RecordError;
 use super::evidence::{AGREES, misfit, scale};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
-use super::rivals::is_same_set;
+use super::pruning::is_same_set;
 use super::score::ScoreTest;
 use super::search::Search;
 use crate::effects::{Place, Source};
@@ -28,7 +28,7 @@ impl Search<'_> {
     ) -> Result<Vec<FittedRecords>, RecordError> {
         let place = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.place.clone());
         for _ in 0..MOVED {
-            let next_to = self.begun_next_to(level, &found)?;
+            let next_to = self.starts_at_neighbours(level, &found)?;
             let before = place(&found);
             if next_to.is_empty() {
                 break;
@@ -42,7 +42,7 @@ impl Search<'_> {
     }
 
     /// The best of `found` with its last law moved to the places next to its own, the [`BESIDE`] that would leave least to first order.
-    fn begun_next_to(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
+    fn starts_at_neighbours(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let others = &best.effects[..best.effects.len() - 1];
         let mut places = next_to(&law.place, &self.records.structure.neighbours());
@@ -80,7 +80,7 @@ impl Search<'_> {
         let near = open && left < NEAR * (best.chi_square + scale(best) * best.prior);
         match found.iter().find(|f| is_same_set(&f.effects, &start.effects)) {
             Some(own) => near && own.chi_square > MORE * best.chi_square,
-            None => near || !self.given_up.holds(&start.effects, best),
+            None => near || !self.pruned.holds(&start.effects, best),
         }
     }
 }

@@ -10,7 +10,7 @@
 use super::data::RecordError;
 use super::evidence::{information, scale};
 use super::fitted::FittedRecords;
-use super::normal::{Left, Normal};
+use super::normal_equations::{Left, Normal};
 use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use super::steps::Steps;

@@ -13,7 +13,7 @@ use super::data::{RecordData, RecordError, Records};
 use super::evidence::{evidence, scale};
 use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
-use super::normal::RecordDerivatives;
+use super::normal_equations::RecordDerivatives;
 use super::problem::{FitProblem, Free};
 use super::regression::foremost;
 use super::search::Search;

@@ -6,8 +6,8 @@ use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::laws::laws_seen_in;
 use super::problem::{FitProblem, Free};
-use super::rivals::{GivenUp, is_same_set, unlike};
-use super::telling::{last_deviations, plainest};
+use super::pruning::{PrunedSets, diverse, is_same_set};
+use super::suggestions::{keep_parsimonious, last_deviations};
 use crate::balance::windows::motion::Motion;
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -62,8 +62,8 @@ pub(super) struct Search<'a> {
     pub stated: &'a Structure,
     pub supports: &'a [Correction],
     pub control: &'a Control,
-    /// Sets with a neighbour of the best law that left hopelessly much on shorter parts, where no phase is lost.
-    pub given_up: GivenUp,
+    /// Sets with a neighbour of the best law that left hopelessly much on shorter segments, where no phase is lost.
+    pub pruned: PrunedSets,
     /// Laws that are looked for.
     pub laws: Vec<Effect>,
     /// The motion of the modes as the sensors show it, once it was asked for.
@@ -94,9 +94,9 @@ impl<'a> Search<'a> {
         (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
         control: &'a Control,
     ) -> Self {
-        let (levels, given_up, motions) = (weighted.levels(), GivenUp::default(), OnceLock::new());
+        let (levels, pruned, motions) = (weighted.levels(), PrunedSets::default(), OnceLock::new());
         let laws = laws_seen_in(plain);
-        Self { records: weighted, plain, levels, excluded, stated, supports, control, given_up, laws, motions }
+        Self { records: weighted, plain, levels, excluded, stated, supports, control, pruned, laws, motions }
     }
 
     /// The structure as it is stated with its supports and other parts corrected.
@@ -116,7 +116,7 @@ impl Search<'_> {
         share: f64,
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
-        self.problem(level, share).begin(start, rounds)
+        self.problem(level, share).chord_fit(start, rounds)
     }
 
     /// The whole records with the samples on which sets are fitted.
@@ -207,7 +207,7 @@ impl Search<'_> {
         let starts = self.nearest(level, starts, scale(best));
         let free = self.records.kept <= FEW_MODES && self.levels[level].list.iter().all(|r| r.forces.is_empty());
         let mut found: Vec<FittedRecords> = Vec::new();
-        add_begun(&mut found, self.first_fits(level, &starts, free));
+        add_begun(&mut found, self.multi_start_fits(level, &starts, free));
         self.control.check()?;
         keep(&mut found, FOLLOWED, HOPELESS[0]);
         let follow = |k: usize| self.fit(level, &found[k], 1.0, FOLLOWING).ok();
@@ -253,7 +253,7 @@ impl Search<'_> {
 
     /// The best of `rivals` fitted on the parts of the next level, best first.
     pub(super) fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
-        let mut few = unlike(rivals, RIVALS);
+        let mut few = diverse(rivals, RIVALS);
         if let Some(best) = rivals.first() {
             let unit = scale(best);
             let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
@@ -278,32 +278,31 @@ impl Search<'_> {
         self.beside_neighbours(level + 1, self.sorted(level + 1, found))
     }
 
-    /// Fits, best first, with those of neighbours in place of the last law of the best: of wider laws and of the simpler ones that it
-    /// contains.
+    /// Fits, best first, with those of neighbours in place of the last law of the best: its generalisations and its special cases.
     fn beside_neighbours(
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordError> {
-        let wider = self.begun_wider(level, &found)?;
-        let mut starts = [wider, self.begun_plainer(level, &found)].concat();
-        // What is wider may have come further than the plainer law that it is all but.
+        let general = self.generalised_starts(level, &found)?;
+        let mut starts = [general, self.special_case_starts(level, &found)].concat();
+        // A generalisation may have come further than the special case to which it has converged.
         for _ in 0..2 {
-            starts.retain(|s| found.first().is_none_or(|best| !self.given_up.holds(&s.effects, best)));
+            starts.retain(|s| found.first().is_none_or(|best| !self.pruned.holds(&s.effects, best)));
             if starts.is_empty() {
                 break;
             }
             found = self.with_begun(level, found, &starts)?;
-            starts = self.begun_plainer(level, &found);
+            starts = self.special_case_starts(level, &found);
         }
-        let elsewhere = self.begun_elsewhere(level, &found)?;
+        let elsewhere = self.starts_at_rival_places(level, &found)?;
         if !elsewhere.is_empty() {
             found = self.with_begun(level, found, &elsewhere)?;
         }
         self.moved_along(level, found)
     }
 
-    /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is given up.
+    /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is pruned.
     pub(super) fn with_begun(
         &self,
         level: usize,
@@ -314,14 +313,14 @@ impl Search<'_> {
             self.control.map(list.len(), |k| self.fit(level, &list[k], 1.0, rounds).ok())
         };
         let mut begun = Vec::new();
-        add_begun(&mut begun, self.first_fits(level, starts, false));
+        add_begun(&mut begun, self.multi_start_fits(level, starts, false));
         begun.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         let others = begun.split_off(begun.len().min(FOLLOWED_BESIDE));
         add_begun(&mut found, fits(&begun, FOLLOWING));
         add_begun(&mut found, others.into_iter().map(Some).collect());
         self.control.check()?;
         if !self.control.is_late() {
-            self.given_up.add_all(&found, HOPELESS[0], NOISE);
+            self.pruned.add_all(&found, HOPELESS[0], NOISE);
         }
         Ok(self.sorted(level, found))
     }
@@ -335,7 +334,7 @@ impl Search<'_> {
             let best = found.iter().find(|f| f.chi_square == least).map_or(1.0, scale);
             found.sort_by(|a, b| evidence(a, best).total_cmp(&evidence(b, best)));
             if level + 1 == self.levels.len() {
-                plainest(&mut found);
+                keep_parsimonious(&mut found);
             }
         }
         found

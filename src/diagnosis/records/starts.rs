@@ -3,8 +3,8 @@
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::localisation::{LocatedForce, locate};
+use super::pruning::is_same_set;
 use super::regression::{Regressed, Regression};
-use super::rivals::is_same_set;
 use super::search::Search;
 use crate::effects::{Constant, Effect, Family, Motion, Place, Range, Source, State};
 use std::f64::consts::TAU;
@@ -111,10 +111,10 @@ impl Search<'_> {
         sources
     }
 
-    /// The best of `found` with each simpler law that its own contains in place of it, where none is among them yet or one that was cut
+    /// The best of `found` with each special case of its last law in place of that, where none is among them yet or one that was cut
     /// off far from where it ends: a slider whose spring is stiff, or a power law of exponent 1, says less plainly what a law of one
     /// parameter says.
-    pub(super) fn begun_plainer(&self, level: usize, found: &[FittedRecords]) -> Vec<FittedRecords> {
+    pub(super) fn special_case_starts(&self, level: usize, found: &[FittedRecords]) -> Vec<FittedRecords> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Vec::new() };
         let taken = |s: &Source| best.effects.iter().chain(self.excluded).any(|e| e.is_same(s));
         let allowed = |s: &Source| s.parameters.iter().zip(s.effect.parameters()).all(|(v, p)| p.allows(*v));
@@ -129,7 +129,7 @@ impl Search<'_> {
         let of_its_force = |source: Source| {
             let along = leg
                 .zip(motion.as_ref())
-                .and_then(|(leg, motion)| self.alike(law, source.clone(), (leg, motion, level)));
+                .and_then(|(leg, motion)| self.with_equal_force(law, source.clone(), (leg, motion, level)));
             along.unwrap_or(source)
         };
         let in_place = |source: Source| {

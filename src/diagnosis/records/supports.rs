@@ -7,10 +7,10 @@
 //!
 //! `k_s` is the spring in place of the support, `k_hh` the stiffness of the element there ([`Part::Support`]).
 
-use super::corrected::SHARES;
 use super::data::RecordError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
+use super::model_updating::SHARES;
 use super::problem::{FitProblem, Free};
 use super::search::Search;
 use crate::diagnosis::updating::correction::Correction;
@@ -75,7 +75,7 @@ impl Search<'_> {
         let mut fitted = start;
         for share in SHARES {
             let problem = FitProblem { records: &records, free: free.clone(), share, control: self.control };
-            fitted = problem.begin(&fitted, ROUNDS).ok()?;
+            fitted = problem.chord_fit(&fitted, ROUNDS).ok()?;
         }
         Some(fitted)
     }

@@ -1,34 +1,33 @@
-//! Steps of a fit whose derivatives by corrections, shapes, offsets and initial states are held as they were where it began
-//! (chord or simplified Newton method: Deuflhard, *Newton Methods for Nonlinear Problems*, 2011, section 2.1.2).
+//! Chord method (simplified Newton method: Deuflhard, *Newton Methods for Nonlinear Problems*, 2011, section 2.1.2): steps of a fit whose
+//! derivatives by corrections, shapes, offsets and initial states are kept from the point where it started.
 //!
 //! ```text
 //! J = [J_laws(x)  J_rest(x_0)],    e(x) exact at every step
 //! ```
 //!
-//! The laws, which are what a search varies, are differentiated anew at every step, a few parameters each; all else, ten times
-//! as many, moves a record nearly as it did at the beginning. A step then costs a fifth of a full one; where it begins anew
-//! from what it has come to, the fit ends where one with full steps does. What is held knows nothing of the laws, so that first fits of
-//! several laws at one place may share it.
+//! The laws, a few parameters each, are differentiated anew at every step; the derivatives by all other variables, ten times as many,
+//! hardly change on the way. A step costs a fifth of a full one, and with restarts the fit ends where one with full steps does. The kept
+//! derivatives do not depend on the laws: fits of several laws at one place may share them.
 
 use super::coarse_steps::Defect;
 use super::data::RecordError;
 use super::fitted::FittedRecords;
-use super::normal::{Normal, Products, RecordDerivatives, RecordPart};
+use super::normal_equations::{Normal, Products, RecordDerivatives, RecordPart};
 use super::problem::FitProblem;
 use super::steps::Steps;
 use crate::response::transient::TransientParameter;
 use dashpot_numerics::dot;
 
-/// Most numbers of derivatives that are held: 160 MB.
+/// Most numbers of derivatives that are kept: 160 MB.
 const MOST: usize = 20_000_000;
 
-/// Derivatives of all records by all but the laws, with their products.
-pub(super) struct Held {
-    records: Vec<HeldRecord>,
+/// Derivatives of all records by all variables but those of the laws, with their products.
+pub(super) struct ChordJacobian {
+    records: Vec<RecordJacobian>,
 }
 
-/// Those of one record.
-struct HeldRecord {
+/// The derivatives of one record.
+struct RecordJacobian {
     /// Number of the derivative, of the variable behind those of the laws, and the factor between them.
     unknowns: Vec<(usize, usize, f64)>,
     /// Of each channel: numbers of derivatives with their samples, over the noise.
@@ -36,8 +35,8 @@ struct HeldRecord {
     products: Products,
 }
 
-impl Held {
-    /// At the start of a fit, with the equations there; `None` where they are too many to be held.
+impl ChordJacobian {
+    /// At the start of a fit, with the normal equations there; `None` where there are too many derivatives to keep.
     pub(super) fn new(
         problem: &FitProblem,
         at: &FittedRecords,
@@ -54,14 +53,14 @@ impl Held {
             let mut derivatives = problem.derivatives(at, scales, r, Steps::Coarse)?;
             defect.take_from(r, &mut derivatives.left);
             let part = derivatives.products(1.0);
-            Ok((HeldRecord::new(derivatives, &part.products, laws), part))
+            Ok((RecordJacobian::new(derivatives, &part.products, laws), part))
         });
-        let made: Vec<(HeldRecord, RecordPart)> = made.into_iter().collect::<Result<_, _>>()?;
+        let made: Vec<(RecordJacobian, RecordPart)> = made.into_iter().collect::<Result<_, _>>()?;
         let (records, parts) = made.into_iter().unzip();
         Ok(Some((Self { records }, problem.assembled(at, unit, parts))))
     }
 
-    /// The equations at another point, also one with other laws, only the laws differentiated there.
+    /// The normal equations at another point, also one with other laws; only the laws are differentiated there.
     pub(super) fn normal(
         &self,
         problem: &FitProblem,
@@ -76,19 +75,19 @@ impl Held {
     }
 }
 
-impl HeldRecord {
+impl RecordJacobian {
     /// Without what belongs to the first `laws` variables.
     fn new(derivatives: RecordDerivatives, products: &Products, laws: usize) -> Self {
         let RecordDerivatives { unknowns, channels, .. } = derivatives;
         // The derivatives by the laws come first, one a variable.
         let own = unknowns.iter().filter(|(_, k, _)| *k < laws).count();
         let others = unknowns.into_iter().filter(|(_, k, _)| *k >= laws);
-        let held = |columns: Vec<(usize, Vec<f64>)>| {
+        let kept = |columns: Vec<(usize, Vec<f64>)>| {
             columns.into_iter().filter(|(p, _)| *p >= own).map(|(p, list)| (p - own, list)).collect()
         };
         Self {
             unknowns: others.map(|(p, k, slope)| (p - own, k - laws, slope)).collect(),
-            channels: channels.into_iter().map(held).collect(),
+            channels: channels.into_iter().map(kept).collect(),
             products: products.without(own),
         }
     }
@@ -141,10 +140,10 @@ mod tests {
     use crate::diagnosis::records::variables::scales;
     use crate::effects::{Effect, Place, Source};
 
-    /// The equations with what is held are those with all derivatives: where it was taken to the last digits, and beside a power law of
-    /// exponent 1, which moves the structure as the dashpot does, up to the errors of its steps in time.
+    /// The equations with kept derivatives equal those with all derivatives: to the last digits where they were taken, and beside a power
+    /// law of exponent 1, which moves the structure as the dashpot does, up to the errors of its steps in time.
     #[test]
-    fn what_is_held_serves_another_law() {
+    fn kept_derivatives_serve_another_law() {
         let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
         let wave = |dof: usize| (0..400).map(|n| 1e-2 * (0.12 * f64::from(n) + dof as f64).sin()).collect();
         let run = decay(4e-3, vec![wave(0), wave(1)]);
@@ -163,8 +162,8 @@ mod tests {
         let largest = own.gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
         for (from, within) in [(&power, 1e-9), (&dashpot, 2e-2)] {
             let defect = problem.defect(&power).unwrap();
-            let (held, _) = Held::new(&problem, from, &scales(&from.effects), 1.0, &defect).unwrap().unwrap();
-            let shared = held.normal(&problem, &power, &of_power, 1.0, &defect).unwrap();
+            let (chord, _) = ChordJacobian::new(&problem, from, &scales(&from.effects), 1.0, &defect).unwrap().unwrap();
+            let shared = chord.normal(&problem, &power, &of_power, 1.0, &defect).unwrap();
             for (k, (a, b)) in own.gradient.iter().zip(&shared.gradient).enumerate() {
                 assert!((a - b).abs() < within * largest, "{k}: {a} {b}");
                 for j in 0..own.gradient.len() {

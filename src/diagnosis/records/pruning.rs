@@ -1,27 +1,27 @@
-//! Which sets of effects are worth carrying on: rivals that differ in kind, and none that was given up on shorter parts.
+//! Pruning of a beam search: the sets of effects that are carried on are diverse, and none was pruned on shorter segments.
 
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use crate::effects::{Effect, Source};
 use std::sync::{Mutex, PoisonError};
 
-/// Most rivals whose last law is of the kin of that of a better one at the same place, or that law at another place: laws of one kin share
-/// their limits and bend to the same data, neighbouring places see the same motion, so that many of them say no more than two.
-const MOST_KIN: usize = 2;
-/// Evidence by which a fit is so far behind one that leaves no more than noise that it is not begun again on longer parts: a descent that
-/// ended after some steps has less to gain there. Three times that within which fits are carried on; of an Iwan joint under hammers
+/// Most rivals whose last law is of the family of that of a better one at the same place, or that law at another place: laws of one family
+/// share their special cases and fit the same data, neighbouring places see the same motion, so that more than two add nothing.
+const MOST_OF_FAMILY: usize = 2;
+/// Evidence by which a fit must be behind one that leaves no more than noise to be pruned on longer segments: a descent that ended after
+/// some steps has less to gain there. Three times that within which fits are carried on; of an Iwan joint under hammers
 /// (looked-at seed 3504) the neighbours were 315 and more behind on parts, and thousands on the whole records.
 const FAR: f64 = 240.0;
 
-/// The first `count` of some fits, best first; of laws of one kin at a place, and of one law, the first [`MOST_KIN`] only, as long as there
-/// are others.
-pub(super) fn unlike(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
+/// The first `count` of some fits, best first; of laws of one family at a place, and of one law, the first [`MOST_OF_FAMILY`] only, as
+/// long as there are others.
+pub(super) fn diverse(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
     let mut taken: Vec<usize> = Vec::new();
     for (k, rival) in rivals.iter().enumerate() {
         let beside = |alike: fn(&FittedRecords, &FittedRecords) -> bool| {
-            taken.iter().filter(|&&t| alike(&rivals[t], rival)).count() < MOST_KIN
+            taken.iter().filter(|&&t| alike(&rivals[t], rival)).count() < MOST_OF_FAMILY
         };
-        if beside(is_kin) && beside(is_same_law) && taken.len() < count {
+        if beside(is_same_family) && beside(is_same_law) && taken.len() < count {
             taken.push(k);
         }
     }
@@ -37,8 +37,8 @@ fn is_same_law(one: &FittedRecords, other: &FittedRecords) -> bool {
     law(one) == law(other)
 }
 
-/// Whether the last laws of two fits, at the same place, are the same, or one has all limits of the other.
-fn is_kin(one: &FittedRecords, other: &FittedRecords) -> bool {
+/// Whether the last laws of two fits, at the same place, are the same, or one has all special cases of the other.
+fn is_same_family(one: &FittedRecords, other: &FittedRecords) -> bool {
     let (Some(a), Some(b)) = (one.effects.last(), other.effects.last()) else { return false };
     let has_limits_of = |wide: Effect, other: Effect| {
         other.limits().next().is_some() && other.limits().all(|limit| wide.contains(limit))
@@ -52,9 +52,9 @@ pub(super) fn is_same_set(a: &[Source], b: &[Source]) -> bool {
     a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| y.is_same(x)))
 }
 
-/// Sets of effects that a search no longer follows.
+/// Sets of effects that a search follows no longer.
 #[derive(Debug, Default)]
-pub(super) struct GivenUp {
+pub(super) struct PrunedSets {
     hopeless: Sets,
     behind: Sets,
 }
@@ -75,13 +75,13 @@ impl Sets {
     }
 }
 
-impl GivenUp {
+impl PrunedSets {
     /// Whether a set is not to be begun beside `best`: it left hopelessly much, or is far behind where `best` leaves no more than noise.
     pub(super) fn holds(&self, effects: &[Source], best: &FittedRecords) -> bool {
         self.hopeless.holds(effects) || (misfit(best) < AGREES && self.behind.holds(effects))
     }
 
-    /// Gives up the fits that leave `hopeless` times the least that any of them leaves, or that `noise` times the number of samples; and,
+    /// Prunes the fits that leave `hopeless` times the least that any of them leaves, or that `noise` times the number of samples; and,
     /// beside one that leaves no more than noise, those that are [`FAR`] behind it.
     pub(super) fn add_all(&self, found: &[FittedRecords], hopeless: f64, noise: f64) {
         let Some(best) = found.iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square)) else { return };
@@ -95,7 +95,7 @@ impl GivenUp {
 
 #[cfg(test)]
 mod tests {
-    use super::{GivenUp, unlike};
+    use super::{PrunedSets, diverse};
     use crate::diagnosis::records::fitted::FittedRecords;
     use crate::effects::{Effect, Place, Source};
 
@@ -106,42 +106,42 @@ mod tests {
     }
 
     #[test]
-    fn laws_of_another_kind_are_carried_on_beside_four_of_one_kin() {
-        let kin = [Effect::Dahl, Effect::BoucWen, Effect::ElasticSlider, Effect::Iwan];
-        let mut rivals: Vec<FittedRecords> = kin.iter().map(|law| fit(*law, 1.0)).collect();
+    fn laws_of_another_family_are_carried_on_beside_four_of_one() {
+        let family = [Effect::Dahl, Effect::BoucWen, Effect::ElasticSlider, Effect::Iwan];
+        let mut rivals: Vec<FittedRecords> = family.iter().map(|law| fit(*law, 1.0)).collect();
         rivals.push(fit(Effect::Power, 2.0));
         let laws = |fits: Vec<FittedRecords>| fits.iter().map(|f| f.effects[0].effect).collect::<Vec<_>>();
-        let carried = laws(unlike(&rivals, 4));
+        let carried = laws(diverse(&rivals, 4));
         assert_eq!(carried.len(), 4);
         assert!(carried.contains(&Effect::Power), "{carried:?}");
         let mut rivals: Vec<FittedRecords> = (0..4).map(|_| fit(Effect::Coulomb, 1.0)).collect();
         (0..).zip(&mut rivals).for_each(|(dof, rival)| rival.effects[0].place = Place::Dofs(vec![dof]));
         rivals.push(fit(Effect::Power, 2.0));
-        assert!(laws(unlike(&rivals, 3)).contains(&Effect::Power));
-        // Where there is nothing else all of one kin are.
+        assert!(laws(diverse(&rivals, 3)).contains(&Effect::Power));
+        // Where there is nothing else all of one family are.
         rivals.pop();
-        assert_eq!(laws(unlike(&rivals, 4)).len(), 4);
+        assert_eq!(laws(diverse(&rivals, 4)).len(), 4);
     }
 
     #[test]
-    fn what_leaves_hopelessly_much_on_short_parts_is_given_up() {
+    fn what_leaves_hopelessly_much_on_short_segments_is_pruned() {
         let (best, other) = (fit(Effect::Dahl, 1.0), fit(Effect::Gap, 100.0));
-        let given_up = GivenUp::default();
-        given_up.add_all(&[best.clone(), other.clone()], 12.0, 0.5);
-        assert!(given_up.holds(&other.effects, &best) && !given_up.holds(&best.effects, &best));
+        let pruned = PrunedSets::default();
+        pruned.add_all(&[best.clone(), other.clone()], 12.0, 0.5);
+        assert!(pruned.holds(&other.effects, &best) && !pruned.holds(&best.effects, &best));
     }
 
     /// Twice the noise is far behind on 1000 samples, as long as the best leaves no more than noise; on 100 it is not.
     #[test]
-    fn what_is_far_behind_an_explanation_is_given_up_while_it_explains() {
+    fn what_is_far_behind_an_explanation_is_pruned_while_it_explains() {
         let fitted = |effect, misfit: f64, count: usize| FittedRecords { count, ..fit(effect, misfit * count as f64) };
         let (gap, lost) = (fitted(Effect::Gap, 2.0, 1000), fitted(Effect::Dahl, 1.5, 1000));
         for (count, behind) in [(1000, true), (100, false)] {
             let (best, other) = (fitted(Effect::Dahl, 1.0, count), fitted(Effect::Gap, 2.0, count));
-            let given_up = GivenUp::default();
-            given_up.add_all(&[best.clone(), other], 12.0, 0.5);
-            assert_eq!(given_up.holds(&gap.effects, &best), behind, "{count} samples");
-            assert!(!given_up.holds(&gap.effects, &lost), "{count} samples");
+            let pruned = PrunedSets::default();
+            pruned.add_all(&[best.clone(), other], 12.0, 0.5);
+            assert_eq!(pruned.holds(&gap.effects, &best), behind, "{count} samples");
+            assert!(!pruned.holds(&gap.effects, &lost), "{count} samples");
         }
     }
 }

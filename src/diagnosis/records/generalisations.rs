@@ -1,19 +1,19 @@
-//! Laws that contain the one that fits best, begun where they do the same force: a fit that has gone to a law of one parameter does not
-//! find from there what makes it another (friction that falls with speed, a slider that gives).
+//! Generalisations of the law that fits best, started where they exert the same force: the fit of a law of one parameter cannot find the
+//! law of more parameters that it is a special case of (friction that falls with speed, a slider with a spring).
 
 use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
 use super::neighbouring_places::with_work_of;
-use super::rivals::is_same_set;
+use super::pruning::is_same_set;
 use super::score::{ScoreTest, Scored};
 use super::search::Search;
 use crate::effects::{Effect, Leg, Place, Source};
 use crate::response::transient::force_along;
 use dashpot_numerics::dot;
 
-/// Shapes of a wider law from which fits begin, and of all wider laws.
+/// Shapes of one generalisation from which fits start, and of all of them together.
 const BEGUN: usize = 2;
 const BEGUN_OF_ALL: usize = 8;
 /// Places of rivals at which the law of the best is tried, and the squared residual over that of the best, or over the noise, up to which
@@ -22,22 +22,26 @@ const ELSEWHERE: usize = 2;
 const NEAR: f64 = 4.0;
 
 impl Search<'_> {
-    /// The best of `found` with its last law replaced by wider ones, from where they leave least; on parts of records none where it
-    /// leaves no more than noise.
-    pub(super) fn begun_wider(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
+    /// The best of `found` with its last law replaced by generalisations, at the shapes that leave least; on segments of records none
+    /// where the best leaves no more than noise.
+    pub(super) fn generalised_starts(
+        &self,
+        level: usize,
+        found: &[FittedRecords],
+    ) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
-        let wider: Vec<Effect> =
-            law.effect.wider().into_iter().filter(|e| self.laws.contains(e) && *e != law.effect).collect();
+        let laws: Vec<Effect> =
+            law.effect.generalisations().into_iter().filter(|e| self.laws.contains(e) && *e != law.effect).collect();
         let explained = misfit(best) < AGREES && level + 1 < self.levels.len();
-        if explained || wider.is_empty() || self.control.is_late() {
+        if explained || laws.is_empty() || self.control.is_late() {
             return Ok(Vec::new());
         }
-        self.begun_as(level, best, &wider)
+        self.with_law_replaced(level, best, &laws)
     }
 
-    /// The law of the best of `found` at the places of its nearest rivals, where it was not tried: what it is and where it acts is
-    /// decided together, and a law that was widened at one place only would be sure of that place.
-    pub(super) fn begun_elsewhere(
+    /// The law of the best of `found` at the places of its nearest rivals, where it was not tried: law and place are decided together, and
+    /// a law that was generalised at one place only would seem certain of that place.
+    pub(super) fn starts_at_rival_places(
         &self,
         level: usize,
         found: &[FittedRecords],
@@ -62,16 +66,16 @@ impl Search<'_> {
                 f.effects.last().is_some_and(|e| e.effect == law.effect && e.place.is_same(&other.place))
             };
             if !found.iter().any(tried) {
-                starts.extend(self.begun_as(level, rival, &[law.effect])?);
-                starts.extend(self.with_its_work(level, best, &other.place));
+                starts.extend(self.with_law_replaced(level, rival, &[law.effect])?);
+                starts.extend(self.with_equal_work_at(level, best, &other.place));
             }
         }
-        starts.retain(|s| !self.given_up.holds(&s.effects, best));
+        starts.retain(|s| !self.pruned.holds(&s.effects, best));
         Ok(starts)
     }
 
-    /// `fit` with its last law at another place, where it does the same work.
-    fn with_its_work(&self, level: usize, fit: &FittedRecords, place: &Place) -> Option<FittedRecords> {
+    /// `fit` with its last law at another place, doing equal work there.
+    fn with_equal_work_at(&self, level: usize, fit: &FittedRecords, place: &Place) -> Option<FittedRecords> {
         let motion = FitMotion::new(&self.levels[level], fit, self.control).ok()?;
         let mut start = fit.clone();
         let law = start.effects.pop()?;
@@ -79,9 +83,14 @@ impl Search<'_> {
         Some(start)
     }
 
-    /// `fit` with its last law replaced by others, doing the same force along its motion: the [`BEGUN`] shapes of each, and
+    /// `fit` with its last law replaced by others that exert an equal force along its motion: the [`BEGUN`] shapes of each, and
     /// [`BEGUN_OF_ALL`] of all, that would leave least in its place to first order.
-    fn begun_as(&self, level: usize, fit: &FittedRecords, laws: &[Effect]) -> Result<Vec<FittedRecords>, RecordError> {
+    fn with_law_replaced(
+        &self,
+        level: usize,
+        fit: &FittedRecords,
+        laws: &[Effect],
+    ) -> Result<Vec<FittedRecords>, RecordError> {
         let Some((law, leg)) = fit.effects.last().and_then(|e| Some((e, e.place.legs().first().copied()?))) else {
             return Ok(Vec::new());
         };
@@ -101,7 +110,7 @@ impl Search<'_> {
         few.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.gain.total_cmp(&a.1.gain)));
         few.truncate(BEGUN_OF_ALL);
         let in_place = |scored: Scored| {
-            let source = self.alike(law, scored.source, (leg, test.motion(), level))?;
+            let source = self.with_equal_force(law, scored.source, (leg, test.motion(), level))?;
             let mut start = fit.clone();
             start.effects.pop();
             start.effects.push(source);
@@ -110,8 +119,8 @@ impl Search<'_> {
         Ok(few.into_iter().filter_map(|(_, scored)| in_place(scored)).collect())
     }
 
-    /// A source scaled so that its force along the motion is that of `law`.
-    pub(super) fn alike(
+    /// `source` scaled so that its force along the motion equals that of `law` in the least-squares sense.
+    pub(super) fn with_equal_force(
         &self,
         law: &Source,
         mut source: Source,
@@ -170,8 +179,8 @@ mod tests {
         Source::known(effect, Place::Dofs(vec![dof]), parameters)
     }
 
-    /// What a search begins beside some fits, each of one effect with its squared residual.
-    fn begun(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
+    /// Starts beside some fits, each of one effect with its squared residual: special cases, and rival places.
+    fn starts(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
         let structure = chain();
         let run = decay(&structure);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
@@ -188,17 +197,17 @@ mod tests {
         };
         let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
         let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
-        [laws(search.begun_plainer(whole, &found)), laws(search.begun_elsewhere(whole, &found).unwrap())]
+        [laws(search.special_case_starts(whole, &found)), laws(search.starts_at_rival_places(whole, &found).unwrap())]
     }
 
     /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
     #[test]
     fn a_simpler_law_that_was_cut_off_begins_again() {
         let power = (at(Effect::Power, 2, &[0.9, 1.0]), 7000.0);
-        let [plainer, _] = begun(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e30)]);
+        let [plainer, _] = starts(&[power.clone(), (at(Effect::Viscous, 2, &[9.0]), 1e30)]);
         let again = plainer.iter().find(|s| s.effect == Effect::Viscous).unwrap();
         assert!((again.parameters[0] - 0.9).abs() < 1e-9, "{again:?}");
-        let [plainer, _] = begun(&[power, (at(Effect::Viscous, 2, &[0.9]), 7050.0)]);
+        let [plainer, _] = starts(&[power, (at(Effect::Viscous, 2, &[0.9]), 7050.0)]);
         assert!(plainer.iter().all(|s| s.effect != Effect::Viscous), "{plainer:?}");
     }
 
@@ -206,7 +215,7 @@ mod tests {
     #[test]
     fn the_best_law_is_tried_at_the_places_of_its_rivals() {
         let best = (at(Effect::Viscous, 2, &[0.9]), 7000.0);
-        let [_, elsewhere] = begun(&[best.clone(), (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0)]);
+        let [_, elsewhere] = starts(&[best.clone(), (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0)]);
         assert!(elsewhere.iter().all(|s| s.effect == Effect::Viscous && s.place == Place::Dofs(vec![1])));
         // Once with the force of the rival, once with the work of the best.
         assert_eq!(elsewhere.len(), 2, "{elsewhere:?}");
@@ -216,7 +225,7 @@ mod tests {
         assert!((elsewhere[1].parameters[0] / as_much_work - 1.0).abs() < 0.01, "{elsewhere:?} {as_much_work}");
         let tried = (at(Effect::Viscous, 1, &[0.4]), 15_000.0);
         let far = (at(Effect::Coulomb, 0, &[5e-3]), 90_000.0);
-        let [_, elsewhere] = begun(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);
+        let [_, elsewhere] = starts(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);
         assert!(elsewhere.is_empty(), "{elsewhere:?}");
     }
 }

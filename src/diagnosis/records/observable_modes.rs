@@ -1,13 +1,13 @@
-//! Modes that a record shows for a moment only: one that is damped by some percent rings for a few milliseconds after a
-//! blow, no peak in the spectrum of the whole record, yet far above the noise while it lasts. What is not followed counts as
-//! noise, so that such a mode would hide all that is to be found.
+//! Modes that a record shows for a moment only: one that is damped by some percent rings for a few milliseconds after a blow, no peak in
+//! the spectrum of the whole record, yet far above the noise while it lasts. Motion of modes beyond the last that is modelled counts as
+//! noise, which would hide all effects.
 
 use super::data::RecordData;
 use super::weights::{in_band, local};
 use crate::structure::modes::Modes;
 use std::f64::consts::TAU;
 
-/// Motion of a mode over the noise in its band from which on it is plainly there: of some thousand neighbourhoods of noise alone the
+/// Motion of a mode over the noise in its band from which on it is observable: of some thousand neighbourhoods of noise alone the
 /// largest has a mean square of about five.
 const PLAIN: f64 = 9.0;
 /// Half width of a neighbourhood in periods of the mode.
@@ -18,17 +18,17 @@ const LOUD: f64 = 32.0;
 const HELD: f64 = 0.4;
 
 impl RecordData {
-    /// Number of modes up to the highest that the record plainly shows, looked for from number `from` to `to`, of a decay up to `most_hz`;
-    /// 0 where it shows none of them.
-    pub(super) fn shown(&self, modes: &Modes, from: usize, to: usize, most_hz: f64) -> usize {
+    /// Number of modes up to the highest that is observable in the record, of those from number `from` to `to`, in a decay up to
+    /// `most_hz`; 0 where none of them is.
+    pub(super) fn observable_modes(&self, modes: &Modes, from: usize, to: usize, most_hz: f64) -> usize {
         let most = if self.forces.is_empty() { TAU * most_hz } else { f64::INFINITY };
         let mut numbers = (from..to.min(modes.len())).rev().filter(|&r| modes.omega[r] <= most);
-        numbers.find(|&r| shows(self, modes, r)).map_or(0, |r| r + 1)
+        numbers.find(|&r| is_observable(self, modes, r)).map_or(0, |r| r + 1)
     }
 }
 
 /// Whether a channel moves in the band about mode `r`, up to the middle between it and its neighbours, well above its noise.
-fn shows(record: &RecordData, modes: &Modes, r: usize) -> bool {
+fn is_observable(record: &RecordData, modes: &Modes, r: usize) -> bool {
     let frequency_hz = |k: usize| modes.omega[k] / TAU;
     let own = frequency_hz(r);
     if own <= 0.0 || own * record.step > HELD {

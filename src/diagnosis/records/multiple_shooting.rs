@@ -1,55 +1,55 @@
-//! Records cut into parts, each with an initial state of its own (multiple shooting, Bock 1983): over a part a model that is
-//! off loses no phase, while the parts together hold the amplitudes of the whole record.
+//! Multiple shooting (Bock 1983): records in segments, each with an initial state of its own. Over a segment a model that is off loses no
+//! phase, while the segments together hold the amplitudes of the whole record.
 //!
-//! Parts grow by [`GROWTH`] or [`GROWTH_DRIVEN`] from level to level until one would be half of the record; the last level is the whole. Decays are
-//! thinned to the samples that their motion needs.
+//! Segments grow by [`GROWTH`] or [`GROWTH_DRIVEN`] from level to level until one would be half of the record; the last level is the whole
+//! record. Decays are decimated to the samples that their motion needs.
 
 use super::compare::struck;
 use super::data::{RecordData, Records};
 use super::evidence::alike;
 use super::weights::local;
 
-/// Periods of the dominant motion in the shortest parts.
+/// Periods of the dominant motion in the shortest segments.
 const PERIODS: f64 = 8.0;
-/// Least length of a part, as a share of that many periods of the dominant motion: two periods hold its amplitude and its damping.
+/// Least length of a segment, as a share of that many periods of the dominant motion: two periods hold its amplitude and its damping.
 const LEAST_SHARE: f64 = 0.25;
-/// Ratio of the lengths of parts from one level to the next; of long records in which forces act all the time, which hold the phase.
+/// Ratio of the lengths of segments from one level to the next; of long records in which forces act all the time, which hold the phase.
 const GROWTH: f64 = 3.0;
 const GROWTH_DRIVEN: f64 = 9.0;
 /// Periods of the dominant motion from which on such a record is long.
 const LONG: f64 = 150.0;
-/// Most parts of a record and of all records; more records than that have one part each.
+/// Most segments of a record and of all records; more records than that have one segment each.
 const MOST: usize = 5;
 const MOST_OF_ALL: usize = 8;
-/// Share of the motion that the parts hold, where it is short enough for it.
+/// Share of the motion that the segments hold, where it is short enough for it.
 const COVERED: f64 = 0.5;
-/// Least share of the largest motion, and least ratio to the noise, at which a part may begin.
+/// Least share of the largest motion, and least ratio to the noise, at which a segment may begin.
 const QUIET: f64 = 0.03;
 const ABOVE_NOISE: f64 = 6.0;
-/// Samples of a decay that a period of its highest motion needs in a part.
+/// Samples of a decay that a period of its highest motion needs in a segment.
 const SAMPLES: f64 = 24.0;
-/// Phase of the highest motion, rad, that a step of the model may cover in a part and in a whole record.
+/// Phase of the highest motion, rad, that a step of the model may cover in a segment and in a whole record.
 const STEP_PHASE: [f64; 2] = [0.4, 0.2];
-/// Samples of all channels of all parts that are enough for a search, and samples over which what a model leaves stays alike for each
+/// Samples of all channels of all segments that are enough for a search, and samples over which what a model leaves stays alike for each
 /// that is kept: eight of them tell all that there is.
 const ENOUGH: usize = 16_000;
 const ALIKE: f64 = 8.0;
-/// Fewest samples of a part.
+/// Fewest samples of a segment.
 const FEWEST: usize = 48;
 
 impl Records<'_> {
-    /// The records in parts of growing length, at last whole.
+    /// The records in segments of growing length, at last whole.
     pub(super) fn levels(&self) -> Vec<Self> {
         let long = |r: &RecordData| r.dominant_hz * r.step * r.len() as f64 > LONG;
         let driven = self.list.iter().all(|r| !r.forces.is_empty() && struck(r).is_none() && long(r));
         let growth = if driven { GROWTH_DRIVEN } else { GROWTH };
         let mut levels = Vec::new();
         let mut periods = PERIODS;
-        while let Some(parts) = self.in_parts(periods) {
-            levels.push(parts.with_enough_samples());
+        while let Some(segments) = self.in_segments(periods) {
+            levels.push(segments.with_enough_samples());
             periods *= growth;
         }
-        let whole = self.list.iter().map(|r| r.part(0, r.len(), STEP_PHASE[1])).collect();
+        let whole = self.list.iter().map(|r| r.segment(0, r.len(), STEP_PHASE[1])).collect();
         levels.push(Self { list: whole, ..self.clone() }.with_enough_samples());
         levels
     }
@@ -66,19 +66,19 @@ impl Records<'_> {
         self
     }
 
-    /// Parts of `periods` periods of the dominant motion; `None` where they are half of every record.
-    fn in_parts(&self, periods: f64) -> Option<Self> {
+    /// Segments of `periods` periods of the dominant motion; `None` where they are half of every record.
+    fn in_segments(&self, periods: f64) -> Option<Self> {
         let most = (MOST_OF_ALL / self.list.len()).clamp(1, MOST);
-        let cut: Vec<Vec<RecordData>> = self.list.iter().map(|r| cut(r, periods, most)).collect();
+        let cut: Vec<Vec<RecordData>> = self.list.iter().map(|r| segments(r, periods, most)).collect();
         let seconds = |r: &RecordData| r.step * r.len() as f64;
-        let shorter = cut.iter().zip(&self.list).any(|(parts, whole)| 2.0 * seconds(&parts[0]) <= seconds(whole));
+        let shorter = cut.iter().zip(&self.list).any(|(segments, whole)| 2.0 * seconds(&segments[0]) <= seconds(whole));
         shorter.then(|| Self { list: cut.into_iter().flatten().collect(), ..self.clone() })
     }
 }
 
-/// At most `most` parts of a record, evenly spread over its motion; the first follows a blow to its end.
-fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
-    // Free motion that is mostly faster than its highest peak needs shorter parts: phase is lost by its own periods.
+/// At most `most` segments of a record, evenly spread over its motion; the first follows a blow to its end.
+fn segments(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
+    // Free motion that is mostly faster than its highest peak needs shorter segments: phase is lost by its own periods.
     let is_free = record.forces.is_empty() || struck(record).is_some();
     let fast_hz = if is_free { record.median_hz.min(record.dominant_hz / LEAST_SHARE) } else { record.dominant_hz };
     let seconds = periods / fast_hz;
@@ -96,8 +96,8 @@ fn cut(record: &RecordData, periods: f64, most: usize) -> Vec<RecordData> {
     {
         *nearest = loud;
     }
-    let later = ends.into_iter().map(|end| record.part(end - length.min(end), end, STEP_PHASE[0]));
-    std::iter::once(record.part(0, first, STEP_PHASE[0])).chain(later).collect()
+    let later = ends.into_iter().map(|end| record.segment(end - length.min(end), end, STEP_PHASE[0]));
+    std::iter::once(record.segment(0, first, STEP_PHASE[0])).chain(later).collect()
 }
 
 /// Number of the sample about which the motion is largest, in the channel that shows most of it.
@@ -125,7 +125,7 @@ fn active(record: &RecordData, length: usize) -> usize {
 
 impl RecordData {
     /// Samples `from..to`, of a decay no more than its motion needs; steps of the model cover no more than `phase` rad of it.
-    fn part(&self, from: usize, to: usize, phase: f64) -> Self {
+    fn segment(&self, from: usize, to: usize, phase: f64) -> Self {
         let every = if self.forces.is_empty() { self.spare() } else { 1 };
         let shortened = |lists: &[Vec<f64>]| -> Vec<Vec<f64>> {
             lists.iter().map(|list| list[from..to].iter().copied().step_by(every).collect()).collect()

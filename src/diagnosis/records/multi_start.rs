@@ -1,17 +1,17 @@
-//! First fits of many starts with one law more each. Those at one place share what is held of all that is no law ([`super::held`]), taken
-//! where the first of them begins: they differ in the law, and the fits only have to say which are followed.
+//! Multi-start: short fits of many starts with one law more each, which decide which starts are followed. Those at one place differ only
+//! in the law, and share the derivatives by all other variables ([`super::chord_steps`]), taken at the first of them.
 
+use super::chord_steps::ChordJacobian;
 use super::fitted::FittedRecords;
-use super::held::Held;
 use super::search::Search;
 
-/// Rounds and steps in each of a first fit.
+/// Rounds of a short fit, and steps in each.
 const BEGINNING: [usize; 2] = [1, 3];
 
 impl Search<'_> {
-    /// First fits on the parts of `level` of starts that are best first; none of a start that runs away. `in_free_motion` those of the
-    /// first periods come before: where a frequency follows the amplitude the phase of a decay is lost within a part.
-    pub(super) fn first_fits(
+    /// Short fits on the segments of `level` of starts, the best start first; none of a start that diverges. `in_free_motion` each begins
+    /// with a fit of the first periods: where the frequency depends on the amplitude the phase of a decay is lost within a segment.
+    pub(super) fn multi_start_fits(
         &self,
         level: usize,
         starts: &[FittedRecords],
@@ -20,11 +20,11 @@ impl Search<'_> {
         let groups = by_place(starts);
         let problem = self.problem(level, 1.0);
         let fits = |group: &Vec<usize>| {
-            let mut held: Option<Held> = None;
+            let mut chord: Option<ChordJacobian> = None;
             let mut fit = |k: &usize| {
                 let first =
                     if in_free_motion { self.fit_first_periods(level, &starts[*k], BEGINNING).ok() } else { None };
-                problem.begin_beside(first.as_ref().unwrap_or(&starts[*k]), BEGINNING, &mut held).ok()
+                problem.chord_fit_from(first.as_ref().unwrap_or(&starts[*k]), BEGINNING, &mut chord).ok()
             };
             group.iter().map(|k| (*k, fit(k))).collect::<Vec<_>>()
         };

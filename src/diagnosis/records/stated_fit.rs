@@ -1,9 +1,10 @@
-//! What is told of a fit, so that the error that is promised is the one that comparing the project shows once it is done.
+//! The stated fit: the corrections of a fit that a project file can state, so that the error that a search predicts is the one that
+//! comparing the corrected project shows.
 //!
-//! A search varies all stiffness and that of every mode at once, which say much the same. What is told must do without: the fit is
-//! made again with all stiffness alone, with all mass beside it, with modes alone and with neither, each beside the known sources
-//! that moved, and the plainest that leaves as little stands for all of it. Errors of shapes, offsets and a shift of every record,
-//! which no project states, stay free meanwhile, or the rest would bend to them; the promise is made without them.
+//! A search varies all stiffness and that of every mode at once, which are nearly collinear. The fit is made again with all stiffness
+//! alone, with all mass beside it, with modes alone and with neither, each beside the known sources that moved, and the one with the
+//! most evidence is stated. Errors of shapes, offsets and a shift of every record, which no project states, stay free meanwhile, or the
+//! corrections would absorb them; the error is predicted without them.
 
 use super::compare::started_from;
 use super::data::{RecordData, RecordError};
@@ -18,7 +19,7 @@ use dashpot_numerics::dot;
 
 /// Deviations from 0 at which a correction of a known source and of a mode is kept.
 const MOVED: [f64; 2] = [4.0, 2.0];
-/// Least change of a known source and of a mode that is told.
+/// Least change of a known source and of a mode that is stated.
 const LEAST: [f64; 2] = [0.01, 1e-4];
 /// Rounds and steps of the fits.
 const ROUNDS: [usize; 2] = [2, 4];
@@ -38,18 +39,17 @@ struct Choice<'f> {
 }
 
 impl Search<'_> {
-    /// `fit` with the corrections that can be told; its effects fitted beside them. Where time is up they are
-    /// told as they are.
-    pub(super) fn told(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    /// `fit` with the corrections that a project can state, its effects fitted beside them; `fit` itself where time is up.
+    pub(super) fn stated_fit(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
         if self.control.is_late() {
             return Ok(fit.clone());
         }
         let all = Restrictions::new(self, fit)?;
         let versions = self.by_sizes(fit);
         let mut best = self.plainest_choice(&all, versions.iter().flat_map(|(fit, sizes)| self.choices(fit, sizes)))?;
-        // What agrees with the records only by sizes that are not sure each is told with all of them.
+        // What agrees with the records only by sizes that are not sure each is stated with all of them.
         let enough = self.records.agreement(AGREES);
-        if misfit(fit) <= enough && best.as_ref().is_some_and(|(told, _)| misfit(told) > enough) {
+        if misfit(fit) <= enough && best.as_ref().is_some_and(|(stated, _)| misfit(stated) > enough) {
             let sizes = vec![true; fit.known.len() + self.records.damped()];
             let with_all = self.plainest_choice(&all, self.choices(fit, &sizes).into_iter())?;
             best = best.into_iter().chain(with_all).reduce(|a, b| if is_plainer(&b, &a) { b } else { a });
@@ -70,8 +70,8 @@ impl Search<'_> {
         choices.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (cost, choice) in choices.into_iter().take(FITTED) {
             // What costs more to first order than another does is not the plainest.
-            let is_enough = |told: &(FittedRecords, usize)| {
-                is_plainest(&told.0, choice.fit) || cost_of(told, scale(choice.fit)) < cost
+            let is_enough = |stated: &(FittedRecords, usize)| {
+                is_plainest(&stated.0, choice.fit) || cost_of(stated, scale(choice.fit)) < cost
             };
             if best.as_ref().is_some_and(is_enough) {
                 break;
@@ -86,7 +86,7 @@ impl Search<'_> {
     fn by_sizes(&self, fit: &FittedRecords) -> Vec<(FittedRecords, Vec<bool>)> {
         let first = parameters(fit);
         let wide = scale(fit).sqrt();
-        // A law that contains the known one trades with it: neither can be told without the other.
+        // A law that contains the known one trades with it: neither can be stated without the other.
         let trades = |j: usize| {
             let known = &self.records.known[j];
             fit.effects.iter().any(|e| e.place.is_same(&known.place) && e.effect.contains(known.effect))
@@ -167,15 +167,15 @@ impl Search<'_> {
             found.push((self.fitted_anew(&next, free.clone())?, free));
         }
         let first_mode = 1 + self.records.sizes();
-        for (mut told, free) in found {
-            keep_deviations(&mut told, choice.fit);
+        for (mut stated, free) in found {
+            keep_deviations(&mut stated, choice.fit);
             if choice.stiffness || choice.by_mode {
-                without_common_shift(&mut told, choice.by_mode.then(|| &free[first_mode..]), weights);
-            } else if common_shift(&told, weights).abs() >= LEAST[1] {
+                without_common_shift(&mut stated, choice.by_mode.then(|| &free[first_mode..]), weights);
+            } else if common_shift(&stated, weights).abs() >= LEAST[1] {
                 // What all records have in common is no scatter, and no project states it as that.
                 continue;
             }
-            let own = (told, number(&free));
+            let own = (stated, number(&free));
             if best.as_ref().is_none_or(|best| is_plainer(&own, best)) {
                 *best = Some(own);
             }
@@ -200,10 +200,10 @@ impl Search<'_> {
     }
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
-        // What an effect is worth is told by the fit in which all else was free, or it would stand for what is held here.
+        // The evidence of an effect is that of the fit in which all else was free, or it would absorb what is fixed here.
         let free = Free { corrections, shifts: true, shapes: true, effects: false };
         let problem = FitProblem { records: self.whole(), free, share: 1.0, control: self.control };
-        match problem.begin(start, ROUNDS) {
+        match problem.chord_fit(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
             Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
@@ -224,7 +224,7 @@ impl Search<'_> {
         free
     }
 
-    /// Whether the size of a known source, the damping or the stiffness of a mode, of this number, is told.
+    /// Whether the size of a known source, the damping or the stiffness of a mode, of this number, is stated.
     fn stands_out(&self, k: usize, value: f64, deviation: f64) -> bool {
         let kind = usize::from(k >= self.records.sizes());
         value.abs() > (MOVED[kind] * deviation).max(LEAST[kind])
@@ -237,18 +237,18 @@ impl Search<'_> {
         (0..self.records.kept).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
     }
 
-    /// What comparing the project shows with the corrections of `told` and these effects, their parameters as they are.
-    pub(super) fn promised(&self, told: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
+    /// What comparing the project shows with the corrections of `stated` and these effects, their parameters as they are.
+    pub(super) fn predicted_error(&self, stated: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
         let mut records = self.plain.clone();
         records.known.extend_from_slice(effects);
         let mut start = FittedRecords {
-            stiffness: told.stiffness,
-            damping: told.damping.clone(),
-            modes: told.modes.clone(),
-            mass: told.mass,
+            stiffness: stated.stiffness,
+            damping: stated.damping.clone(),
+            modes: stated.modes.clone(),
+            mass: stated.mass,
             ..FittedRecords::start(&records, &[])
         };
-        start.known[..told.known.len()].copy_from_slice(&told.known);
+        start.known[..stated.known.len()].copy_from_slice(&stated.known);
         // From where comparing the project begins, or it might end elsewhere.
         let fitted = started_from(&records, start, &self.control.unhurried());
         match fitted.and_then(|fit| fit.error(&records, 0.0, 1.0)) {
@@ -258,34 +258,34 @@ impl Search<'_> {
     }
 }
 
-/// Gives the effects of what is told the deviations that they have in `fit`, on the scale of what is told.
-fn keep_deviations(told: &mut FittedRecords, fit: &FittedRecords) {
-    let share = (scale(fit) / scale(told)).sqrt();
-    let count = parameters(fit).min(told.deviations.len());
-    for (told, own) in told.deviations[..count].iter_mut().zip(&fit.deviations) {
-        *told = own * share;
+/// Gives the effects of the stated fit the deviations that they have in `fit`, on the scale of the former.
+fn keep_deviations(stated: &mut FittedRecords, fit: &FittedRecords) {
+    let share = (scale(fit) / scale(stated)).sqrt();
+    let count = parameters(fit).min(stated.deviations.len());
+    for (stated, own) in stated.deviations[..count].iter_mut().zip(&fit.deviations) {
+        *stated = own * share;
     }
 }
 
 /// What the shifts of all records have in common: their mean, each weighted by what its record tells of it.
-fn common_shift(told: &FittedRecords, weights: &[f64]) -> f64 {
+fn common_shift(stated: &FittedRecords, weights: &[f64]) -> f64 {
     let all: f64 = weights.iter().sum();
-    if all > 0.0 { dot(&told.shifts, weights) / all } else { 0.0 }
+    if all > 0.0 { dot(&stated.shifts, weights) / all } else { 0.0 }
 }
 
 /// Puts what the shifts of all records have in common on the stiffness of the modes, of which these are `free`, or on all stiffness where
 /// there is no list of them: the same model. A mode that was held is known as well as that is.
-fn without_common_shift(told: &mut FittedRecords, free: Option<&[bool]>, weights: &[f64]) {
-    let common = common_shift(told, weights);
-    told.shifts.iter_mut().for_each(|v| *v -= common);
+fn without_common_shift(stated: &mut FittedRecords, free: Option<&[bool]>, weights: &[f64]) {
+    let common = common_shift(stated, weights);
+    stated.shifts.iter_mut().for_each(|v| *v -= common);
     let Some(free) = free else {
-        told.stiffness += common;
+        stated.stiffness += common;
         return;
     };
-    told.modes.iter_mut().for_each(|v| *v += common);
-    let first = parameters(told) + 1 + told.known.len() + told.damping.len();
+    stated.modes.iter_mut().for_each(|v| *v += common);
+    let first = parameters(stated) + 1 + stated.known.len() + stated.damping.len();
     let deviation = weights.iter().sum::<f64>().sqrt().recip();
-    let held = told.deviations.iter_mut().skip(first).zip(free).take(told.modes.len());
+    let held = stated.deviations.iter_mut().skip(first).zip(free).take(stated.modes.len());
     held.filter(|(_, free)| !**free).for_each(|(own, _)| *own = deviation);
 }
 
@@ -305,15 +305,15 @@ fn is_plainer(new: &(FittedRecords, usize), old: &(FittedRecords, usize)) -> boo
     cost_of(new, unit) < cost_of(old, unit)
 }
 
-/// Whether no fit with a correction more can have more evidence than `told`: even the one with `all` of them free leaves hardly less.
-fn is_plainest(told: &FittedRecords, all: &FittedRecords) -> bool {
+/// Whether no fit with a correction more can have more evidence than `stated`: even the one with `all` of them free leaves hardly less.
+fn is_plainest(stated: &FittedRecords, all: &FittedRecords) -> bool {
     let unit = scale(all);
-    told.chi_square / unit + told.prior <= all.chi_square / unit + information(all, unit)
+    stated.chi_square / unit + stated.prior <= all.chi_square / unit + information(all, unit)
 }
 
-/// The effects of a fit with their deviations, those of `told` where they are its own.
-pub(super) fn added_as_told(told: &[Added], added: &Added) -> Added {
-    told.iter().find(|t| t.source.is_same(&added.source)).unwrap_or(added).clone()
+/// The effects of a fit with their deviations, those of `stated` where they are its own.
+pub(super) fn added_as_stated(stated: &[Added], added: &Added) -> Added {
+    stated.iter().find(|t| t.source.is_same(&added.source)).unwrap_or(added).clone()
 }
 
 #[cfg(test)]
@@ -326,8 +326,8 @@ mod tests {
     use crate::diagnosis::records::data::Records;
     use crate::effects::Effect;
 
-    /// Logarithm of the factor on a known dashpot that is told beside `effect`, and whether it stays free: of two tenths, known to one.
-    fn told_beside(effect: Source) -> (f64, bool) {
+    /// Logarithm of the factor on a known dashpot that is stated beside `effect`, and whether it stays free: of two tenths, known to one.
+    fn stated_beside(effect: Source) -> (f64, bool) {
         let structure = oscillator(1.0, 400.0);
         let wave = |n: usize| 1e-2 * (-1e-2 * n as f64).exp() * (0.2 * n as f64).cos();
         let run = decay(1e-2, vec![(0..400).map(wave).collect()]);
@@ -346,24 +346,24 @@ mod tests {
     /// What all records have in common moves every mode; one that was held before is known as well as that.
     #[test]
     fn a_mode_that_was_held_is_known_as_well_as_the_common_shift() {
-        let mut told = FittedRecords {
+        let mut stated = FittedRecords {
             modes: vec![0.01, 0.0],
             shifts: vec![0.004, 0.0],
             ..FittedRecords::of_effects(vec![], 1.0)
         };
-        told.deviations = vec![1.0, 2e-3, 1.0];
-        without_common_shift(&mut told, Some(&[true, false]), &[300.0, 100.0]);
+        stated.deviations = vec![1.0, 2e-3, 1.0];
+        without_common_shift(&mut stated, Some(&[true, false]), &[300.0, 100.0]);
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
-        assert!(near(&told.modes, &[0.013, 0.003]) && near(&told.shifts, &[0.001, -0.003]), "{told:?}");
-        assert!(near(&told.deviations, &[1.0, 2e-3, 0.05]), "{:?}", told.deviations);
+        assert!(near(&stated.modes, &[0.013, 0.003]) && near(&stated.shifts, &[0.001, -0.003]), "{stated:?}");
+        assert!(near(&stated.deviations, &[1.0, 2e-3, 0.05]), "{:?}", stated.deviations);
     }
 
     /// A power law of exponent 1 is the dashpot: what it takes over the dashpot loses, however uncertain the share of each.
     #[test]
     fn a_known_law_keeps_its_size_beside_one_that_contains_it() {
-        assert_eq!(told_beside(source(Effect::Power, &[0], &[0.4, 1.1])), (0.2, true));
-        assert_eq!(told_beside(source(Effect::Coulomb, &[0], &[0.4])), (0.0, false));
+        assert_eq!(stated_beside(source(Effect::Power, &[0], &[0.4, 1.1])), (0.2, true));
+        assert_eq!(stated_beside(source(Effect::Coulomb, &[0], &[0.4])), (0.0, false));
         let elsewhere = Source::known(Effect::Power, Place::Whole(None), &[0.4, 1.1]);
-        assert_eq!(told_beside(elsewhere), (0.0, false));
+        assert_eq!(stated_beside(elsewhere), (0.0, false));
     }
 }

@@ -1,4 +1,4 @@
-//! Fits as suggestions: probabilities, deviations, corrections beside them.
+//! Suggestions and corrections of the model made of fits, with their probabilities and deviations.
 
 use super::data::{RecordError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
@@ -12,8 +12,8 @@ use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
 use crate::structure::Part;
 
-/// Share by which the squared residual of a law of fewer parameters may be larger than that of another at its place, which
-/// then is not told: where what is left is noise, and where it is an error of the model, which more parameters bend towards.
+/// Ratio up to which the squared residual of a law of fewer parameters may be larger than that of another at its place, which then is
+/// not suggested: where the residual is noise, and where it is an error of the model, which more parameters absorb.
 const PLAIN: [f64; 2] = [1.1, 1.3];
 /// Misfit from which on what is left is no noise.
 const MODEL_ERROR: f64 = 1.5;
@@ -99,7 +99,7 @@ pub(super) fn last_deviations(fit: &FittedRecords) -> Vec<f64> {
     fit.deviations[end - count..end].to_vec()
 }
 
-/// Corrections of a fit that can be told ([`Search::told`](super::search::Search)), with their deviations.
+/// Corrections of a fit that a project can state ([`Search::stated_fit`](super::search::Search)), with their deviations.
 pub(super) fn corrections(records: &Records, fit: &FittedRecords) -> Vec<Correction> {
     let wide = scale(fit).sqrt();
     let first = parameters(fit);
@@ -135,7 +135,7 @@ pub(super) fn corrections_of_parts(records: &Records, fit: &FittedRecords) -> Ve
 
 /// Takes out the fits whose last law has more parameters than another at the same place that leaves all but as little, with as little
 /// corrected; where what is left is noise only those for which the evidence does not speak all the same.
-pub(super) fn plainest(found: &mut Vec<FittedRecords>) {
+pub(super) fn keep_parsimonious(found: &mut Vec<FittedRecords>) {
     let unit = found.iter().map(scale).fold(f64::INFINITY, f64::min);
     let cost = |f: &FittedRecords| f.chi_square + unit * f.prior;
     let simple: Vec<(f64, f64, Source)> =
@@ -174,7 +174,7 @@ mod tests {
     fn laws_of_more_parameters_are_told_where_the_evidence_speaks_for_them() {
         let told = |chi_squares: [f64; 2]| {
             let mut found = vec![fit(Effect::Power, chi_squares[0]), fit(Effect::Quadratic, chi_squares[1])];
-            plainest(&mut found);
+            keep_parsimonious(&mut found);
             found.iter().map(|f| f.effects[0].effect).collect::<Vec<_>>()
         };
         assert_eq!(told([4000.0, 4100.0]), [Effect::Power, Effect::Quadratic]);
