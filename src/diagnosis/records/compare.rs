@@ -17,6 +17,8 @@ use dashpot_numerics::RealTransform;
 const PARTS: usize = 8;
 /// Steps of the fit of initial states to the first periods.
 const FIRST_STEPS: usize = 3;
+/// Gain of a step, as a share of what is left, below which a fit of initial states has ended: the error then changes by less.
+const LEAST_GAIN: f64 = 1e-5;
 /// Share of the largest force of a blow above which it acts.
 const STRUCK: f64 = 0.05;
 /// Width of the band about a mode where a record shows several.
@@ -121,7 +123,7 @@ pub(crate) fn started_from(
     control: &Control,
 ) -> Result<FittedRecords, RecordError> {
     let fit = |records: &Records, start: &FittedRecords, share: f64, iterations: usize| {
-        FitProblem { records, free: Free::nothing(), share, control }.improve(start, iterations)
+        FitProblem { records, free: Free::nothing(), share, control }.improve_to(start, iterations, LEAST_GAIN)
     };
     let mut fitted = first_states(records, start, control)?;
     let first = short(records);

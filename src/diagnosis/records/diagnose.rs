@@ -13,7 +13,7 @@ use super::data::{RecordError, Records};
 use super::evidence::{AGREES, GAIN, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{corrected_by, is_strained};
-use super::search::{FEW_MODES, Search, SetsBySize, factors_of};
+use super::search::{FEW_MODES, GROWING, Search, SetsBySize, factors_of};
 use super::suggestions::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step};
@@ -39,8 +39,6 @@ const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
 /// Share of the error of a set, of records of few modes, that decides by itself.
 const GREAT: f64 = 0.3;
-/// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
-const GROWING: usize = 2;
 /// Rounds and steps of a fit with one effect less, and of one on a part of the records.
 const PRUNING: [usize; 2] = [2, 3];
 const LEARNING: [usize; 2] = [2, 3];
@@ -114,15 +112,19 @@ impl Search<'_> {
         let whole = self.levels.len() - 1;
         let bare = self.carried(bare, whole, 0)?;
         let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.updated_model(&bare)?] };
-        for level in 0..=whole {
-            if level > 0 {
-                by_size.last = self.lengthened(&by_size.last, level - 1)?;
-            }
+        let mut level = 0;
+        loop {
             let found_none = by_size.last.first().is_some_and(|f| f.effects.is_empty());
             if level < GROWING || found_none || (level == whole && whole == GROWING) {
                 self.grow(level, &bare, &mut by_size, early)?;
             }
             self.control.report(0.9 * (level + 1) as f64 / (whole + 1) as f64);
+            if level == whole {
+                break;
+            }
+            let next = if level + 1 < GROWING { level + 1 } else { self.next_level(level, &by_size.last) };
+            by_size.last = self.lengthened(&by_size.last, level, next)?;
+            level = next;
         }
         // What short parts showed may be nothing on the whole.
         let vanished = by_size.last.first().is_some_and(|f| f.effects.len() == 1 && !is_sure(f, VANISHED));

@@ -17,12 +17,19 @@ use dashpot_numerics::Cholesky;
 use faer::Mat;
 use std::sync::Arc;
 
-/// Dampings that are tried for a step.
+/// Dampings that are tried for a step, and for one whose derivatives are held: where three fail new ones are better.
 const ATTEMPTS: usize = 6;
+const ATTEMPTS_HELD: usize = 3;
 /// Gain of a step below which a fit has ended: as a share of what is left, and in units of what one squared deviation is worth (a
 /// parameter then moves by less than a seventh of its deviation).
 const LEAST_GAIN: f64 = 1e-7;
 const NO_GAIN: f64 = 0.02;
+/// Gain of a round, in the same units, below which there is no other: what derivatives that are held have missed is a small share of it.
+const LITTLE: f64 = 2.0;
+
+/// Share of what is left by which a step is steep: a descent goes on while its steps are, up to so many times the steps that it may make.
+const STEEP: f64 = 0.3;
+const IN_DESCENT: usize = 3;
 
 /// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
@@ -32,15 +39,35 @@ fn unit_of(start: &FittedRecords) -> f64 {
 /// Where a descent is: the fit, and its equations.
 type Place = (FittedRecords, Normal);
 
+/// How far a descent goes: most steps and attempts at each, and the share of what is left below which a step gains nothing.
+#[derive(Clone, Copy)]
+struct Limits {
+    steps: usize,
+    attempts: usize,
+    least_gain: f64,
+}
+
 impl FitProblem<'_> {
     /// Improves a start in at most `iterations` steps; fewer where time is up.
     pub(super) fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
+        self.improve_to(start, iterations, LEAST_GAIN)
+    }
+
+    /// The same until a step gains less than a share `least_gain` of what is left.
+    pub(super) fn improve_to(
+        &self,
+        start: &FittedRecords,
+        iterations: usize,
+        least_gain: f64,
+    ) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let normal = |at: &FittedRecords| self.normal(at, &scales, unit);
         let equations = Equations { normal: &normal, left: &|at| self.left(at) };
         let place = (start.clone(), normal(start)?);
-        let (best, equations) = self.descend(place, iterations, &scales, unit, &equations)?.0;
+        let (best, equations) = self
+            .descend(place, Limits { steps: iterations, attempts: ATTEMPTS, least_gain }, &scales, unit, &equations)?
+            .0;
         Ok(self.finish(best, &scales, equations))
     }
 
@@ -78,42 +105,52 @@ impl FitProblem<'_> {
             let there = Equations { normal: &renewed, left: &|at| self.left_beside(at, &defect) };
             let ended;
             let equations;
-            ((best, equations), ended) = self.descend((best, normal), steps, &scales, unit, &there)?;
-            if ended || round + 1 >= rounds || self.control.is_late() {
+            let before = normal.left.total(unit);
+            let limits = Limits { steps, attempts: ATTEMPTS_HELD, least_gain: LEAST_GAIN };
+            ((best, equations), ended) = self.descend((best, normal), limits, &scales, unit, &there)?;
+            let little = before - equations.left.total(unit) < LITTLE * unit;
+            if ended || little || round + 1 >= rounds || self.control.is_late() {
                 return Ok(self.finish(best, &scales, equations));
             }
         }
         self.improve(&best, 0)
     }
 
-    /// At most `steps` steps from a place; whether the first of them gained nothing.
+    /// Steps from a place; whether the first of them gained nothing.
     fn descend(
         &self,
         (mut best, mut equations): Place,
-        steps: usize,
+        limits: Limits,
         scales: &[Vec<f64>],
         unit: f64,
         by: &Equations,
     ) -> Result<(Place, bool), RecordError> {
         let mut damping = 1e-3;
-        for k in 0..steps {
+        let mut goes_on = true;
+        for k in 0..IN_DESCENT * limits.steps {
+            if k >= limits.steps && !goes_on {
+                break;
+            }
             self.control.check()?;
             if self.control.is_late() {
                 break;
             }
             let before = equations.left.total(unit);
-            let next = self.step(&best, scales, unit, (&equations, by), &mut damping)?;
+            let least = (limits.least_gain * before).max(NO_GAIN * unit);
+            let next = self.step(&best, scales, unit, (&equations, by), &mut damping, (limits.attempts, least))?;
             let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
             (best, equations) = (next, there);
-            if gain < (LEAST_GAIN * before).max(NO_GAIN * unit) {
+            goes_on = gain > STEEP * before;
+            if gain < least {
                 return Ok(((best, equations), k == 0));
             }
         }
         Ok(((best, equations), false))
     }
 
-    /// One step that leaves less, with the equations there; `None` where none does.
+    /// One step that leaves less, with the equations there; `None` where none of some `attempts` does, or a step is expected to gain less
+    /// than `least`.
     fn step(
         &self,
         best: &FittedRecords,
@@ -121,14 +158,19 @@ impl FitProblem<'_> {
         unit: f64,
         (equations, by): (&Normal, &Equations),
         damping: &mut f64,
+        (attempts, least): (usize, f64),
     ) -> Result<Option<Place>, RecordError> {
         let before = equations.left.total(unit);
-        for attempt in 0..ATTEMPTS {
-            let Some(change) = solve(equations, *damping) else {
+        for attempt in 0..attempts {
+            let Some(step) = solve(equations, *damping) else {
                 *damping *= 10.0;
                 continue;
             };
-            let trial = self.moved(best, scales, &change);
+            // More damping would gain even less.
+            if step.expected_gain < least {
+                return Ok(None);
+            }
+            let trial = self.moved(best, scales, &step.change);
             // The first step is mostly one that leaves less; later ones are looked at without derivatives.
             let there = if attempt == 0 {
                 (by.normal)(&trial).map(|there| (there.left.total(unit), Some(there)))

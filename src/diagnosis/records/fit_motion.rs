@@ -6,7 +6,6 @@ use crate::control::Control;
 use crate::effects::{Leg, Range};
 use crate::measurement::{Channel, Quantity};
 use crate::response::transient::{TransientModel, TransientSetup};
-use dashpot_numerics::dot;
 use std::f64::consts::TAU;
 
 /// Displacement (m), velocity (m/s) and acceleration (m/s^2) at every sample of the forces on a record.
@@ -43,13 +42,15 @@ impl FitMotion {
         Some(relative)
     }
 
-    /// Root mean square of the velocity along a leg over all records, m/s; none where it is no translation.
-    pub(super) fn speed(&self, leg: Leg) -> Option<f64> {
+    /// Root mean square of the displacement along a leg about its mean in each record, m; none where it is no translation. The lowest
+    /// mode that moves is most of it, which a law does most of its work on.
+    pub(super) fn amplitude(&self, leg: Leg) -> Option<f64> {
         let (mut square, mut count) = (0.0, 0);
         for r in 0..self.rows.len() {
-            let [_, v, _] = self.relative(leg, r)?;
-            square += dot(&v, &v);
-            count += v.len();
+            let [d, ..] = self.relative(leg, r)?;
+            let mean = d.iter().sum::<f64>() / d.len().max(1) as f64;
+            square += d.iter().map(|d| (d - mean).powi(2)).sum::<f64>();
+            count += d.len();
         }
         Some((square / count.max(1) as f64).sqrt())
     }

@@ -5,11 +5,10 @@ use super::data::RecordError;
 use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
-use super::neighbouring_places::with_work_of;
 use super::pruning::is_same_set;
 use super::score::{ScoreTest, Scored};
 use super::search::Search;
-use crate::effects::{Effect, Leg, Place, Source};
+use crate::effects::{Effect, Leg, Source};
 use crate::response::transient::force_along;
 use dashpot_numerics::dot;
 
@@ -67,20 +66,10 @@ impl Search<'_> {
             };
             if !found.iter().any(tried) {
                 starts.extend(self.with_law_replaced(level, rival, &[law.effect])?);
-                starts.extend(self.with_equal_work_at(level, best, &other.place));
             }
         }
         starts.retain(|s| !self.pruned.holds(&s.effects, best));
         Ok(starts)
-    }
-
-    /// `fit` with its last law at another place, doing equal work there.
-    fn with_equal_work_at(&self, level: usize, fit: &FittedRecords, place: &Place) -> Option<FittedRecords> {
-        let motion = FitMotion::new(&self.levels[level], fit, self.control).ok()?;
-        let mut start = fit.clone();
-        let law = start.effects.pop()?;
-        start.effects.push(with_work_of(&law, place, &motion)?);
-        Some(start)
     }
 
     /// `fit` with its last law replaced by others that exert an equal force along its motion: the [`BEGUN`] shapes of each, and
@@ -217,12 +206,8 @@ mod tests {
         let best = (at(Effect::Viscous, 2, &[0.9]), 7000.0);
         let [_, elsewhere] = starts(&[best.clone(), (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0)]);
         assert!(elsewhere.iter().all(|s| s.effect == Effect::Viscous && s.place == Place::Dofs(vec![1])));
-        // Once with the force of the rival, once with the work of the best.
-        assert_eq!(elsewhere.len(), 2, "{elsewhere:?}");
+        assert_eq!(elsewhere.len(), 1, "{elsewhere:?}");
         assert!(elsewhere[0].parameters[0] > 0.0);
-        let shapes = chain().modes().unwrap().shapes;
-        let as_much_work = 0.9 * (shapes[(2, 0)] / shapes[(1, 0)]).powi(2);
-        assert!((elsewhere[1].parameters[0] / as_much_work - 1.0).abs() < 0.01, "{elsewhere:?} {as_much_work}");
         let tried = (at(Effect::Viscous, 1, &[0.4]), 15_000.0);
         let far = (at(Effect::Coulomb, 0, &[5e-3]), 90_000.0);
         let [_, elsewhere] = starts(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);

@@ -24,6 +24,7 @@ mod frequencies;
 mod generalisations;
 mod initial_states;
 mod laws;
+mod lengthening;
 pub(crate) mod localisation;
 mod long_steps;
 mod missing_force;

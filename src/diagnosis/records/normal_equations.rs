@@ -323,8 +323,16 @@ impl Normal {
     }
 }
 
-/// Step of Levenberg and Marquardt in scaled variables.
-pub(super) fn solve(normal: &Normal, damping: f64) -> Option<Vec<f64>> {
+/// A step of Levenberg and Marquardt.
+pub(super) struct DampedStep {
+    /// Change of every variable.
+    pub change: Vec<f64>,
+    /// What it takes away of the squared residual and the priors to second order.
+    pub expected_gain: f64,
+}
+
+/// Step of Levenberg and Marquardt in scaled variables, `(H + lambda D) x = g`; by it `g x + lambda x D x` is taken away to second order.
+pub(super) fn solve(normal: &Normal, damping: f64) -> Option<DampedStep> {
     let size = normal.gradient.len();
     let greatest = (0..size).map(|k| normal.matrix[(k, k)]).fold(0.0, f64::max);
     let scale: Vec<f64> =
@@ -335,6 +343,31 @@ pub(super) fn solve(normal: &Normal, damping: f64) -> Option<Vec<f64>> {
     });
     let rhs = Mat::from_fn(size, 1, |i, _| normal.gradient[i] * scale[i]);
     let x = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
+    let expected_gain = (0..size).map(|i| x[(i, 0)] * (rhs[(i, 0)] + damping * x[(i, 0)])).sum();
     let change: Vec<f64> = (0..size).map(|i| x[(i, 0)] * scale[i]).collect();
-    change.iter().all(|x| x.is_finite()).then_some(change)
+    change.iter().all(|x| x.is_finite()).then_some(DampedStep { change, expected_gain })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    /// What a step is expected to gain is what a quadratic function loses by it, with damping and without.
+    #[test]
+    fn the_expected_gain_is_that_of_a_quadratic_function() {
+        let matrix = Mat::from_fn(2, 2, |i, j| [[4.0, 1.0], [1.0, 9.0]][i][j]);
+        let normal = NormalEquations { matrix, gradient: vec![2.0, -3.0], left: Left::default() };
+        let loss = |x: &[f64]| {
+            let square: f64 = (0..2)
+                .flat_map(|i| (0..2).map(move |j| (i, j)))
+                .map(|(i, j)| x[i] * normal.matrix[(i, j)] * x[j])
+                .sum();
+            2.0 * (normal.gradient[0] * x[0] + normal.gradient[1] * x[1]) - square
+        };
+        for damping in [0.0, 0.1, 10.0] {
+            let step = solve(&normal, damping).unwrap();
+            assert!((step.expected_gain - loss(&step.change)).abs() < 1e-12, "damping {damping}");
+        }
+    }
 }

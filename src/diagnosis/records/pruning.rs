@@ -31,6 +31,23 @@ pub(super) fn diverse(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecor
     taken.into_iter().map(|k| rivals[k].clone()).collect()
 }
 
+/// Some fits, best first, without those whose last law contains that of a better one at the same place and leaves no less: what it has
+/// more is begun anew on whole records, where it can show.
+pub(super) fn without_needless_generalisations(rivals: &[FittedRecords]) -> Vec<FittedRecords> {
+    let is_needless = |wide: &FittedRecords, narrow: &FittedRecords| {
+        let (Some(a), Some(b)) = (wide.effects.last(), narrow.effects.last()) else { return false };
+        let others = |fit: &FittedRecords| fit.effects[..fit.effects.len() - 1].to_vec();
+        a.effect != b.effect
+            && a.effect.contains(b.effect)
+            && a.place.is_same(&b.place)
+            && is_same_set(&others(wide), &others(narrow))
+            && wide.chi_square >= narrow.chi_square
+    };
+    let kept =
+        rivals.iter().enumerate().filter(|(k, wide)| !rivals[..*k].iter().any(|narrow| is_needless(wide, narrow)));
+    kept.map(|(_, fit)| fit.clone()).collect()
+}
+
 /// Whether the last laws of two fits are the same, wherever they act.
 fn is_same_law(one: &FittedRecords, other: &FittedRecords) -> bool {
     let law = |fit: &FittedRecords| fit.effects.last().map(|e| e.effect);
@@ -95,7 +112,7 @@ impl PrunedSets {
 
 #[cfg(test)]
 mod tests {
-    use super::{PrunedSets, diverse};
+    use super::{PrunedSets, diverse, without_needless_generalisations};
     use crate::diagnosis::records::fitted::FittedRecords;
     use crate::effects::{Effect, Place, Source};
 
@@ -143,5 +160,20 @@ mod tests {
             assert_eq!(pruned.holds(&gap.effects, &best), behind, "{count} samples");
             assert!(!pruned.holds(&gap.effects, &lost), "{count} samples");
         }
+    }
+
+    /// Dahl friction that leaves no less than dry friction at its place says nothing more; one that leaves less, or is elsewhere, may.
+    #[test]
+    fn a_generalisation_that_leaves_no_less_is_needless() {
+        let elsewhere = |fit: FittedRecords| {
+            let mut moved = fit.clone();
+            moved.effects[0].place = Place::Dofs(vec![1]);
+            moved
+        };
+        let kept = |dahl: FittedRecords| without_needless_generalisations(&[fit(Effect::Coulomb, 1.0), dahl]).len();
+        assert_eq!(kept(fit(Effect::Dahl, 1.1)), 1);
+        assert_eq!(kept(fit(Effect::Dahl, 0.9)), 2);
+        assert_eq!(kept(elsewhere(fit(Effect::Dahl, 1.1))), 2);
+        assert_eq!(kept(fit(Effect::Gap, 1.1)), 2);
     }
 }

@@ -6,7 +6,7 @@ use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::laws::laws_seen_in;
 use super::problem::{FitProblem, Free};
-use super::pruning::{PrunedSets, diverse, is_same_set};
+use super::pruning::{PrunedSets, is_same_set};
 use super::suggestions::{keep_parsimonious, last_deviations};
 use crate::balance::windows::motion::Motion;
 use crate::control::Control;
@@ -33,20 +33,13 @@ pub(super) const FEW_MODES: usize = 2;
 /// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
+/// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
+pub(super) const GROWING: usize = 2;
 /// Starts of which a fit is begun.
 const BEGUN: usize = 28;
-/// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
-const RIVALS: usize = 4;
-/// Misfit on longer parts over that on shorter ones from which on the phase is lost there: residuals are twice what they were, which
-/// corrections that drift do not make.
-const LOST: f64 = 4.0;
-/// Evidence by which a fit may be behind the best to be carried on, and fits that are carried on all the same.
-const BEHIND: f64 = 80.0;
-const LEAST_RIVALS: usize = 2;
-const CARRYING: [[usize; 2]; 2] = [[2, 4], [2, 4]];
 /// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
 /// first steps, and on longer parts.
-const HOPELESS: [f64; 2] = [12.0, 3.0];
+pub(super) const HOPELESS: [f64; 2] = [12.0, 3.0];
 const NOISE: f64 = 0.5;
 
 /// The search for what is missing in some records.
@@ -251,35 +244,8 @@ impl Search<'_> {
         taken.into_iter().map(|n| starts[order[n].1].clone()).collect()
     }
 
-    /// The best of `rivals` fitted on the parts of the next level, best first.
-    pub(super) fn lengthened(&self, rivals: &[FittedRecords], level: usize) -> Result<Vec<FittedRecords>, RecordError> {
-        let mut few = diverse(rivals, RIVALS);
-        if let Some(best) = rivals.first() {
-            let unit = scale(best);
-            let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
-            few.truncate(near.max(LEAST_RIVALS));
-        }
-        let carry = |k: usize| {
-            let start = self.carried(&few[k], level, level + 1).ok()?;
-            let most = LOST * few[k].chi_square / few[k].count as f64 * self.levels[level + 1].samples() as f64;
-            self.in_phase(level + 1, start, most).ok()
-        };
-        let starts: Vec<FittedRecords> = self.control.map(few.len(), carry).into_iter().flatten().collect();
-        let longer = |list: &[FittedRecords], rounds| -> Vec<FittedRecords> {
-            let fit = |k: usize| self.fit(level + 1, &list[k], 1.0, rounds).ok();
-            self.control.map(list.len(), fit).into_iter().flatten().collect()
-        };
-        // What leaves hopelessly much after the first rounds is not followed further.
-        let mut found = longer(&starts, CARRYING[0]);
-        keep(&mut found, RIVALS, HOPELESS[0]);
-        let mut found = longer(&found, CARRYING[1]);
-        self.control.check()?;
-        keep(&mut found, RIVALS, HOPELESS[1]);
-        self.beside_neighbours(level + 1, self.sorted(level + 1, found))
-    }
-
     /// Fits, best first, with those of neighbours in place of the last law of the best: its generalisations and its special cases.
-    fn beside_neighbours(
+    pub(super) fn beside_neighbours(
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
@@ -295,7 +261,10 @@ impl Search<'_> {
             found = self.with_begun(level, found, &starts)?;
             starts = self.special_case_starts(level, &found);
         }
-        let elsewhere = self.starts_at_rival_places(level, &found)?;
+        let mut elsewhere = self.starts_at_rival_places(level, &found)?;
+        if level < GROWING && !self.control.is_late() {
+            elsewhere.extend(self.starts_of_equal_work(level, &found));
+        }
         if !elsewhere.is_empty() {
             found = self.with_begun(level, found, &elsewhere)?;
         }
@@ -315,7 +284,10 @@ impl Search<'_> {
         let mut begun = Vec::new();
         add_begun(&mut begun, self.multi_start_fits(level, starts, false));
         begun.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
-        let others = begun.split_off(begun.len().min(FOLLOWED_BESIDE));
+        let least = found.iter().chain(&begun).map(|f| f.chi_square).fold(f64::INFINITY, f64::min);
+        let hopeful = |f: &&FittedRecords| f.chi_square <= HOPELESS[0] * least.max(NOISE * f.count as f64);
+        let few = begun.iter().take(FOLLOWED_BESIDE).take_while(hopeful).count();
+        let others = begun.split_off(few);
         add_begun(&mut found, fits(&begun, FOLLOWING));
         add_begun(&mut found, others.into_iter().map(Some).collect());
         self.control.check()?;
@@ -326,7 +298,7 @@ impl Search<'_> {
     }
 
     /// Those that may be told, by evidence; on whole records without those that a simpler law makes needless.
-    fn sorted(&self, level: usize, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
+    pub(super) fn sorted(&self, level: usize, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
         found.retain(|f| {
             f.effects.last().is_none_or(|e| !e.is_disguised() && is_allowed(self.excluded, e, &last_deviations(f)))
         });
@@ -354,7 +326,7 @@ fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<FittedRecords>>) 
 }
 
 /// The best `count` by their squared residual, none of them `hopeless` times the least.
-fn keep(found: &mut Vec<FittedRecords>, count: usize, hopeless: f64) {
+pub(super) fn keep(found: &mut Vec<FittedRecords>, count: usize, hopeless: f64) {
     found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     found.truncate(count);
     let least = found.first().map_or(0.0, |f| f.chi_square);
