@@ -1,14 +1,14 @@
 //! Why nothing of a file can be imported, in one line that says how to mend it.
 
-use crate::exchange::mapping::Proposal;
 use crate::exchange::mapping::samples::{cut_off, time_goes_back};
+use crate::exchange::mapping::{NotMapped, Proposal};
 use dashpot_datafiles::{Contents, Defect, Kind, Note, Set};
 
 /// Most channels that are named.
 const MOST_NAMED: usize = 3;
 
 /// What is wrong with a file of which no channel could be mapped; `left` are its channels with the reasons.
-pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String {
+pub(super) fn refusal(contents: &Contents, left: &[(String, NotMapped)]) -> String {
     let sets = |kind: Kind| contents.sets.iter().filter(move |set| set.kind == kind);
     let channels = |set: &Set| set.channels.len();
     let bare =
