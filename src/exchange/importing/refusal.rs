@@ -53,7 +53,8 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, NotMapped)]) -> Stri
 
 /// What is wrong with a file whose last row or recording was cut off, so that a channel of `mapping` is left out.
 pub(super) fn cut_short(contents: &Contents, mapping: &Proposal) -> Option<String> {
-    (0..contents.sets.len()).find_map(|set| cut_off(contents, set)).filter(|_| mapping.leaves_another_length())
+    let shorter = mapping.left.iter().any(|(_, why)| matches!(why, NotMapped::OtherLength { .. }));
+    (0..contents.sets.len()).find_map(|set| cut_off(contents, set)).filter(|_| shorter)
 }
 
 /// What is wrong with a file that does not say the time between samples.

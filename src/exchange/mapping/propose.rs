@@ -185,11 +185,6 @@ impl Proposal {
         self.left.iter().find(|(_, why)| forces && !matches!(why, NotMapped::Other(_)))
     }
 
-    /// Whether a channel is left out since it has another number of values than the others.
-    pub(crate) fn leaves_another_length(&self) -> bool {
-        self.left.iter().any(|(_, why)| matches!(why, NotMapped::OtherLength { .. }))
-    }
-
     /// Keeps the channels of the length and step that most of them have: those of a run share their times.
     fn of_one_length<'a>(&mut self, drafts: Vec<Draft<'a>>) -> Vec<Draft<'a>> {
         let times = |draft: &Draft<'_>| (draft.channel.count, draft.channel.axis.step().map(f64::to_bits));
@@ -200,10 +195,8 @@ impl Proposal {
         let Some(most) = drafts.iter().rev().max_by_key(|draft| alike(draft)).map(times) else { return drafts };
         let (kept, others): (Vec<_>, Vec<_>) = drafts.into_iter().partition(|draft| times(draft) == most);
         for draft in others {
-            let reason = match (draft.channel.count, most.0) {
-                (own, others) if own == others => NotMapped::OtherRate,
-                (own, others) => NotMapped::OtherLength { own, others },
-            };
+            let (own, others) = (draft.channel.count, most.0);
+            let reason = if own == others { NotMapped::OtherRate } else { NotMapped::OtherLength { own, others } };
             self.left.push((draft.channel.name.clone(), reason));
         }
         kept
