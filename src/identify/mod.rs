@@ -46,7 +46,7 @@ pub use settings::Settings;
 use crate::balance::{Expansion, Weights};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::measurement::{MeasuredRatio, Run};
+use crate::measurement::Run;
 use crate::structure::Structure;
 use found::Found;
 use problem::Problem;
@@ -89,29 +89,16 @@ pub fn identify(
     settings: &Settings,
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
-    identify_with_ratios(structure, sources, runs, &[], settings, control)
-}
-
-/// [`identify`] with measured damping ratios as rows beside those of the runs, each weighted by its deviation.
-///
-/// # Errors
-/// As [`identify`]; and ratios that belong to no mode, or that stand beside laws whose damping depends on the amplitude.
-pub fn identify_with_ratios(
-    structure: &Structure,
-    sources: &[Source],
-    runs: &[Run],
-    ratios: &[MeasuredRatio],
-    settings: &Settings,
-    control: &Control,
-) -> Result<Outcome, IdentifyError> {
-    identify_measured(structure, sources, Measurements { runs, transient_runs: &[], ratios }, settings, control)
+    let measured = Measurements { runs, transient_runs: &[], ratios: &[] };
+    identify_measured(structure, sources, measured, settings, control)
 }
 
 /// [`identify`] from steady runs, decays, transients and damping ratios together: all that are enabled, each row weighted by
 /// the covariance of its noise.
 ///
 /// # Errors
-/// As [`identify_with_ratios`]; and records whose windows give no energy equation.
+/// As [`identify`]; records whose windows give no energy equation; ratios that belong to no mode, or that stand beside laws whose damping
+/// depends on the amplitude.
 pub fn identify_measured(
     structure: &Structure,
     sources: &[Source],
