@@ -79,9 +79,8 @@ impl<'a> Content<'a> {
     /// Computes what is not known.
     pub fn complete(project: &'a Project, known: Known, request: &Request, control: &Control) -> Self {
         let p = project;
-        let outcome = known.outcome.unwrap_or_else(|| {
-            p.identify(&[], control).map(Arc::new).map_err(|e| e.to_string())
-        });
+        let outcome =
+            known.outcome.unwrap_or_else(|| p.identify(&[], control).map(Arc::new).map_err(|e| e.to_string()));
         let compared =
             |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string());
         let as_it_is = known.comparison.unwrap_or_else(|| compared(p));
