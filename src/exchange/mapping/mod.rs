@@ -4,7 +4,6 @@
 //! by `dashpot_datafiles` and never rewritten.
 
 mod amplitudes;
-mod fault;
 mod guess;
 mod memory;
 pub mod propose;
