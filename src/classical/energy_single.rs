@@ -60,18 +60,10 @@ impl SteadyState {
 pub struct SingleDegree {
     /// Viscous coefficient, N s/m.
     pub c: f64,
-    /// Friction force, N; 0 where only `c` was sought.
+    /// Friction force, N.
     pub friction: f64,
     /// Standard deviation of each; 0 where no row is to spare.
     pub deviation: [f64; 2],
-}
-
-/// `c` alone (3.30).
-///
-/// # Errors
-/// [`ClassicalError::Few`] without a run.
-pub fn viscous(runs: &[SteadyState]) -> Result<SingleDegree, ClassicalError> {
-    fit(runs, 1)
 }
 
 /// `c` and the friction force (3.32).
@@ -79,17 +71,12 @@ pub fn viscous(runs: &[SteadyState]) -> Result<SingleDegree, ClassicalError> {
 /// # Errors
 /// [`ClassicalError::Few`] below two runs; [`ClassicalError::Missing`] where the runs cannot tell the two apart.
 pub fn viscous_and_friction(runs: &[SteadyState]) -> Result<SingleDegree, ClassicalError> {
-    fit(runs, 2)
-}
-
-fn fit(runs: &[SteadyState], unknowns: usize) -> Result<SingleDegree, ClassicalError> {
-    if runs.len() < unknowns {
-        return Err(ClassicalError::Few { what: "steady states", needed: unknowns, found: runs.len() });
+    if runs.len() < 2 {
+        return Err(ClassicalError::Few { what: "steady states", needed: 2, found: runs.len() });
     }
     // Rows divided by their energy: a strong run must not drown the weak ones, which hold the friction.
     let input: Vec<f64> = runs.iter().map(SteadyState::input).collect();
-    let rows =
-        filled(runs.len(), unknowns, |i, j| (if j == 0 { runs[i].viscous() } else { runs[i].friction() }) / input[i]);
+    let rows = filled(runs.len(), 2, |i, j| (if j == 0 { runs[i].viscous() } else { runs[i].friction() }) / input[i]);
     let problem = LeastSquares::new(rows.as_ref())?;
     if problem.condition() > 1e8 {
         let what = "runs of different velocity: friction and viscous damping take out energy in the same proportion";
@@ -97,10 +84,5 @@ fn fit(runs: &[SteadyState], unknowns: usize) -> Result<SingleDegree, ClassicalE
     }
     let solution = problem.solve(&vec![1.0; runs.len()])?;
     let deviations = problem.standard_deviations(solution.variance);
-    let second = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
-    Ok(SingleDegree {
-        c: solution.x[0],
-        friction: second(&solution.x),
-        deviation: [deviations[0], second(&deviations)],
-    })
+    Ok(SingleDegree { c: solution.x[0], friction: solution.x[1], deviation: [deviations[0], deviations[1]] })
 }

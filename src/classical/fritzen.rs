@@ -11,7 +11,7 @@
 use super::data::{Damping, LoadCase};
 use super::error::ClassicalError;
 use super::instrumental::Identified;
-use super::linear::{dynamic_stiffness, inverse, packed, solve, unpacked};
+use super::linear::{dynamic_stiffness, fixed_point, inverse, packed, solve, unpacked};
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
 use faer::{Mat, c64};
@@ -45,30 +45,21 @@ pub fn fritzen(loads: &[LoadCase]) -> Result<Identified, ClassicalError> {
         let what = "loads that bring out every mode at different frequencies".to_string();
         return Err(ClassicalError::Missing { what });
     }
-    let mut p = filled(a.ncols(), 1, |_, _| 0.0);
-    for (i, value) in start.solve(&b)?.x.into_iter().enumerate() {
-        p[(i, 0)] = value;
-    }
-    let b = filled(b.len(), 1, |i, _| b[i]);
-    let mut change = f64::INFINITY;
-    for step in 0..STEPS {
-        let w = rows(loads, &predicted(&p, loads, n, reference)?, reference);
-        // Columns of unit length keep the normal matrix regular.
-        let scale: Vec<f64> = (0..a.ncols()).map(|j| a.col(j).norm_l2().max(f64::MIN_POSITIVE)).collect();
-        let scaled = |m: &Mat<f64>| filled(m.nrows(), m.ncols(), |i, j| m[(i, j)] / scale[j]);
-        let (wide, tall) = (scaled(&w), scaled(&a));
-        let normal = wide.transpose() * tall;
+    let (x, b) = (start.solve(&b)?.x, filled(b.len(), 1, |i, _| b[i]));
+    // Columns of unit length keep the normal matrix regular.
+    let scale: Vec<f64> = (0..a.ncols()).map(|j| a.col(j).norm_l2().max(f64::MIN_POSITIVE)).collect();
+    let scaled = |m: &Mat<f64>| filled(m.nrows(), m.ncols(), |i, j| m[(i, j)] / scale[j]);
+    let tall = scaled(&a);
+    let next = |p: &Mat<f64>| -> Result<Mat<f64>, ClassicalError> {
+        let wide = scaled(&rows(loads, &predicted(p, loads, n, reference)?, reference));
+        let normal = wide.transpose() * &tall;
         let y = solve(normal.as_ref(), (wide.transpose() * &b).as_ref(), "the instrumental matrix", 0.0)?;
-        let next = filled(a.ncols(), 1, |i, _| y[(i, 0)] / scale[i]);
-        change = (&next - &p).norm_l2() / next.norm_l2();
-        p = next;
-        if change <= SETTLED {
-            let mut identified = split(&p, n, reference);
-            identified.damping.notes.push(format!("settled in {} steps", step + 1));
-            return Ok(identified);
-        }
-    }
-    Err(ClassicalError::NoConvergence { steps: STEPS, change })
+        Ok(filled(a.ncols(), 1, |i, _| y[(i, 0)] / scale[i]))
+    };
+    let (p, steps) = fixed_point(filled(a.ncols(), 1, |i, _| x[i]), (STEPS, SETTLED), next)?;
+    let mut identified = split(&p, n, reference);
+    identified.damping.notes.push(steps);
+    Ok(identified)
 }
 
 /// Real and imaginary rows of the equation of motion for the packed entries of `r^2 M`, `r C` and `K`.

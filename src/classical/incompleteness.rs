@@ -138,11 +138,6 @@ impl Incompleteness {
         let point = |case: &Case| Some([case.modes as f64, case.methods[k].as_ref().ok()?.eps_c]);
         self.cases.iter().filter(|case| case.sensors == sensors).filter_map(point).collect()
     }
-
-    /// Curve of the projection error at one set of sensors: (modes, `eps_p` in per cent).
-    pub fn eps_p(&self, sensors: usize) -> Vec<[f64; 2]> {
-        self.cases.iter().filter(|c| c.sensors == sensors).map(|c| [c.modes as f64, c.eps_p]).collect()
-    }
 }
 
 /// What all cases share.

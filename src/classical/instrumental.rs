@@ -13,7 +13,7 @@
 
 use super::data::{Damping, ReceptanceData};
 use super::error::ClassicalError;
-use super::linear::{dynamic_stiffness, inverse, solve};
+use super::linear::{dynamic_stiffness, fixed_point, inverse, solve};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
@@ -45,22 +45,16 @@ pub fn instrumental(receptance: &ReceptanceData) -> Result<Identified, Classical
     let reference = receptance.omega.iter().copied().fold(0.0, f64::max);
     let a = stacked(&receptance.omega, &receptance.matrices, reference);
     let right = identities(n, receptance.omega.len());
-    let mut x = LeastSquares::new(a.as_ref())?.pseudo_inverse() * &right;
-    let mut change = f64::INFINITY;
-    for step in 0..STEPS {
-        let instruments = stacked(&receptance.omega, &modelled(&x, receptance, reference)?, reference);
-        let normal = instruments.transpose() * &a;
-        let load = instruments.transpose() * &right;
-        let next = solve(normal.as_ref(), load.as_ref(), "the instrumental matrix", 0.0)?;
-        change = (&next - &x).norm_l2() / next.norm_l2();
-        x = next;
-        if change <= SETTLED {
-            let mut identified = split(&x, n, reference);
-            identified.damping.notes.push(format!("settled in {} steps", step + 1));
-            return Ok(identified);
-        }
-    }
-    Err(ClassicalError::NoConvergence { steps: STEPS, change })
+    let start = LeastSquares::new(a.as_ref())?.pseudo_inverse() * &right;
+    let next = |x: &Mat<f64>| -> Result<Mat<f64>, ClassicalError> {
+        let instruments = stacked(&receptance.omega, &modelled(x, receptance, reference)?, reference);
+        let (normal, load) = (instruments.transpose() * &a, instruments.transpose() * &right);
+        solve(normal.as_ref(), load.as_ref(), "the instrumental matrix", 0.0)
+    };
+    let (x, steps) = fixed_point(start, (STEPS, SETTLED), next)?;
+    let mut identified = split(&x, n, reference);
+    identified.damping.notes.push(steps);
+    Ok(identified)
 }
 
 /// Rows `[Re; Im] (-w^2/r^2 H, i w/r H, H)` of all lines, `r` a reference frequency that makes the unknowns alike.

@@ -1,4 +1,4 @@
-//! Small dense helpers of complex matrices.
+//! Small dense helpers: complex matrices, linear systems, fixed points.
 
 use super::error::ClassicalError;
 use crate::math::fill::{filled, filled_complex};
@@ -25,6 +25,28 @@ pub(super) fn solve(
     let x = RealLu::new(a).solve(b);
     let finite = x.col_iter().all(|c| c.iter().all(|v| v.is_finite()));
     if finite { Ok(x) } else { Err(ClassicalError::Singular { what, frequency_hz: omega / TAU }) }
+}
+
+/// The fixed point of `next` from `start`, and a note of the steps taken: at most `steps`, until one changes it by no more than the share
+/// `settled`.
+pub(super) fn fixed_point(
+    start: Mat<f64>,
+    (steps, settled): (usize, f64),
+    next: impl Fn(&Mat<f64>) -> Result<Mat<f64>, ClassicalError>,
+) -> Result<(Mat<f64>, String), ClassicalError> {
+    let (mut x, mut change) = (start, f64::INFINITY);
+    for step in 1..=steps {
+        let new = next(&x)?;
+        change = (&new - &x).norm_l2() / new.norm_l2().max(f64::MIN_POSITIVE);
+        x = new;
+        if change <= settled {
+            return Ok((x, format!("settled in {step} steps")));
+        }
+        if !change.is_finite() {
+            break;
+        }
+    }
+    Err(ClassicalError::NoConvergence { steps, change })
 }
 
 /// Real part.

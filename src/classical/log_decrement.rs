@@ -12,7 +12,7 @@ use super::data::DecayRecord;
 use super::error::ClassicalError;
 use crate::math::fill::filled;
 use crate::math::least_squares::LeastSquares;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// What the peaks of a decay show.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,15 @@ pub struct Decrement {
     pub scatter: f64,
 }
 
-/// Damping ratio of a decay whose rest position is 0.
+/// Damping ratio of a decay whose rest position is 0; for callers of the library, as decays of a project are read by windows.
+///
+/// ```
+/// use dashpot::classical::{DecayRecord, log_decrement::log_decrement};
+/// let decay = |i: i32| (-0.02 * f64::from(i) * 0.1).exp() * (f64::from(i) * 0.1).cos();
+/// let found = log_decrement(&DecayRecord { step: 0.1, samples: (0..600).map(decay).collect() })?;
+/// assert!((found.damping_ratio - 0.02).abs() < 1e-4);
+/// # Ok::<(), dashpot::classical::ClassicalError>(())
+/// ```
 ///
 /// # Errors
 /// [`ClassicalError::Few`] below three peaks.
@@ -44,7 +52,7 @@ pub fn log_decrement(record: &DecayRecord) -> Result<Decrement, ClassicalError> 
     let times = fit.solve(&peaks.iter().map(|(t, _)| *t).collect::<Vec<_>>())?;
     let d = -line.x[1];
     Ok(Decrement {
-        damping_ratio: d / (4.0 * PI * PI + d * d).sqrt(),
+        damping_ratio: ratio(d, 1.0),
         frequency_hz: 1.0 / times.x[1],
         scatter: line.residual_norm / (peaks.len() as f64).sqrt(),
         peaks,

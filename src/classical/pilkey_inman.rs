@@ -11,7 +11,7 @@
 use super::data::{Damping, ModalData};
 use super::error::ClassicalError;
 use super::lancaster;
-use super::linear::{column, form};
+use super::linear::{column, fixed_point, form};
 use crate::math::fill::filled_complex;
 use faer::{Mat, MatRef, c64};
 
@@ -26,25 +26,14 @@ const SETTLED: f64 = 1e-13;
 /// [`ClassicalError::NoConvergence`]; [`ClassicalError::Few`], [`ClassicalError::Sizes`].
 pub fn iterative(m: MatRef<'_, f64>, modes: &ModalData) -> Result<Damping, ClassicalError> {
     modes.check(m.nrows(), 1)?;
-    let mut c = Mat::<f64>::zeros(m.nrows(), m.ncols());
-    let mut change = f64::INFINITY;
-    for step in 1..=STEPS {
-        let next = lancaster::sum(
-            m,
-            &scaled(modes, |psi, lambda| form(psi, m, psi) * lambda * 2.0 + form(psi, c.as_ref(), psi)),
-        );
-        change = (&next - &c).norm_l2() / next.norm_l2().max(f64::MIN_POSITIVE);
-        c = next;
-        if !change.is_finite() {
-            break;
-        }
-        if change <= SETTLED {
-            let mut damping = Damping::viscous(c);
-            damping.notes.push(format!("settled in {step} steps"));
-            return Ok(damping);
-        }
-    }
-    Err(ClassicalError::NoConvergence { steps: STEPS, change })
+    let next = |c: &Mat<f64>| {
+        let size = |psi: &[c64], lambda: c64| form(psi, m, psi) * lambda * 2.0 + form(psi, c.as_ref(), psi);
+        Ok(lancaster::sum(m, &scaled(modes, size)))
+    };
+    let (c, steps) = fixed_point(Mat::zeros(m.nrows(), m.ncols()), (STEPS, SETTLED), next)?;
+    let mut damping = Damping::viscous(c);
+    damping.notes.push(steps);
+    Ok(damping)
 }
 
 /// The direct form.

@@ -8,7 +8,7 @@ use crate::diagnosis::compare;
 use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::identify::{Measurements, Status, identify, identify_measured};
+use crate::identify::{Status, identify};
 use crate::session::identified;
 use crate::session::validation::{only_records, problem};
 use anyhow::Context;
@@ -54,12 +54,10 @@ pub(super) fn identify_known(
     file: &Path,
     control: &Control,
 ) -> anyhow::Result<Vec<Source>> {
-    let measured = Measurements { runs: &project.runs, transient_runs: &project.transient_runs, ratios: &[] };
-    let outcome = identify_measured(&project.structure, &project.sources, measured, &project.settings, control)
-        .with_context(|| {
-            let channels = "no channel looks reversed, exchanged, misread or elsewhere";
-            format!("{}: what damps it could not be identified, and {channels}", file.display())
-        })?;
+    let outcome = project.identify(&[], control).with_context(|| {
+        let channels = "no channel looks reversed, exchanged, misread or elsewhere";
+        format!("{}: what damps it could not be identified, and {channels}", file.display())
+    })?;
     let taken = identified::take_over(project, &outcome);
     eprintln!("{}", sentence(project, &taken, asked));
     Ok(taken)

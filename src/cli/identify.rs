@@ -12,7 +12,7 @@ use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::load;
 use crate::exchange::ratios::read_ratios;
-use crate::identify::{IdentifyError, Measurements, Outcome, identify_measured};
+use crate::identify::{IdentifyError, Outcome};
 use crate::measurement::proposal::propose;
 use crate::measurement::{Kind, MeasuredRatio};
 use crate::session::validation::{compared_with_records, only_records};
@@ -79,10 +79,7 @@ pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);
         eprintln!("damping ratio at {:.4} Hz: {value:.4} % +- {deviation:.4} %", r.omega / TAU);
     }
-    let (structure, sources) = (&project.structure, &project.sources);
-    let measured = Measurements { runs: &project.runs, transient_runs: &project.transient_runs, ratios: &ratios };
-    let outcome = identify_measured(structure, sources, measured, &project.settings, &control)
-        .with_context(|| file.display().to_string())?;
+    let outcome = project.identify(&ratios, &control).with_context(|| file.display().to_string())?;
     Ok((project, outcome))
 }
 

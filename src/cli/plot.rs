@@ -12,7 +12,7 @@ use crate::display::words;
 use crate::exchange::Project;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::project::load;
-use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::identify::Outcome;
 use crate::measurement::{Quantity, TransientRun};
 use crate::plots::bars::{self, Bar};
 use crate::plots::bode::{Diagram, Response};
@@ -174,9 +174,7 @@ impl Plotter<'_> {
     }
 
     fn outcome(&self) -> anyhow::Result<Outcome> {
-        let p = self.p;
-        let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
-        Ok(identify_measured(&p.structure, &p.sources, given, &p.settings, self.control)?)
+        Ok(self.p.identify(&[], self.control)?)
     }
 
     fn comparison(&self) -> anyhow::Result<Comparison> {

@@ -40,11 +40,7 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     }
     let mut simulated = Vec::new();
     for index in 0..plan.runs.len() {
-        let noise = (arguments.noise > 0.0).then_some(Noise {
-            ratio: arguments.noise,
-            seed: arguments.seed,
-            stream: index as u64,
-        });
+        let noise = arguments.noise_of(index);
         if let Some(test) = plan.runs[index].test {
             let record = recorded_test(&plan, (index, test), &shifted(&plan, index), &sources, noise);
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);

@@ -13,11 +13,7 @@ use anyhow::{anyhow, bail};
 pub(super) fn run(plan: &Plan, sources: &[Source], arguments: &Simulate) -> anyhow::Result<String> {
     let mut records = Vec::new();
     for index in 0..plan.runs.len() {
-        let noise = (arguments.noise > 0.0).then_some(Noise {
-            ratio: arguments.noise,
-            seed: arguments.seed,
-            stream: index as u64,
-        });
+        let noise = arguments.noise_of(index);
         records.push(recorded(plan, sources, index, noise).map_err(|error| at_run(plan, index, error))?);
     }
     write(plan, &records, arguments)

@@ -4,9 +4,17 @@ use super::arguments::{Records, Simulate};
 use crate::exchange::project::{Plan, ProjectError};
 use crate::exchange::records::{write_harmonics, write_record};
 use crate::measurement::{HarmonicFit, Record, fit::fit, frequency};
+use crate::response::synthesis::Noise;
 use anyhow::Context;
 use std::f64::consts::TAU;
 use std::fs;
+
+impl Simulate {
+    /// Noise of a run, in a stream of its own.
+    pub(super) fn noise_of(&self, run: usize) -> Option<Noise> {
+        (self.noise > 0.0).then_some(Noise { ratio: self.noise, seed: self.seed, stream: run as u64 })
+    }
+}
 
 /// An error with the line of its run, unless it says already where it is.
 pub(super) fn at_run(plan: &Plan, index: usize, error: anyhow::Error) -> anyhow::Error {

@@ -3,6 +3,7 @@
 use super::format;
 use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Place, Source};
+pub(crate) use crate::math::numerals::counted;
 use crate::measurement::{Flag, Quantity, Run};
 use crate::structure::beam::Supports;
 use crate::structure::{Structure, StructureKind};
@@ -170,11 +171,6 @@ pub fn coefficients<'a>(all: impl Iterator<Item = (&'a Source, &'a crate::identi
         if same && k < last { value.clone() } else { format!("{value} {unit}").trim_end().to_owned() }
     };
     parts.iter().enumerate().map(said).collect::<Vec<_>>().join(", ")
-}
-
-/// A number of things in words: `1 source`, `3 sources`.
-pub fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// With a capital letter at the start.

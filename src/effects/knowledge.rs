@@ -3,7 +3,7 @@
 use super::description::{Constant, Description, Exponents};
 use super::effect::Effect;
 use super::kind::Kind;
-use super::law::{ChannelLaw, Law, WholeLaw};
+use super::law::{Law, WholeLaw};
 use super::parameter::Parameter;
 use super::range::Range;
 
@@ -72,6 +72,12 @@ impl Effect {
     }
 
     /// Powers of amplitude and frequency of its equivalent coefficient at the parameters `p`, if they are constant.
+    ///
+    /// ```
+    /// use dashpot::effects::Effect;
+    /// let drag = Effect::Quadratic.exponents(&[2.0]).expect("drag is a power of the velocity");
+    /// assert_eq!((drag.amplitude, drag.frequency), (1.0, 1.0));
+    /// ```
     pub fn exponents(self, p: &[f64]) -> Option<Exponents> {
         (self.description().exponents)(p)
     }
@@ -85,14 +91,6 @@ impl Effect {
     pub fn of_whole_structures() -> impl Iterator<Item = (Self, &'static dyn WholeLaw)> {
         Self::ALL.into_iter().filter_map(|effect| match effect.kind() {
             Kind::Whole(law) => Some((effect, law)),
-            _ => None,
-        })
-    }
-
-    /// The errors of channels with their laws.
-    pub fn of_channels() -> impl Iterator<Item = (Self, &'static dyn ChannelLaw)> {
-        Self::ALL.into_iter().filter_map(|effect| match effect.kind() {
-            Kind::Channel(law) => Some((effect, law)),
             _ => None,
         })
     }

@@ -11,9 +11,10 @@ pub(crate) mod ratios;
 pub mod records;
 
 use crate::classical::reference_shapes::ReferenceShape;
+use crate::control::Control;
 use crate::effects::Source;
-use crate::identify::Settings;
-use crate::measurement::{Run, TransientRun};
+use crate::identify::{IdentifyError, Measurements, Outcome, Settings, identify_measured};
+use crate::measurement::{MeasuredRatio, Run, TransientRun};
 use crate::structure::Structure;
 
 /// A project as read from its file, with all records loaded and fitted.
@@ -39,4 +40,15 @@ pub struct Project {
     pub settings: Settings,
     /// What the user should know of the measurements: lines chosen, faults that were read over.
     pub remarks: Vec<String>,
+}
+
+impl Project {
+    /// Identifies its sources from all its measurements and damping `ratios` that were measured by themselves.
+    ///
+    /// # Errors
+    /// As [`identify_measured`].
+    pub fn identify(&self, ratios: &[MeasuredRatio], control: &Control) -> Result<Outcome, IdentifyError> {
+        let measured = Measurements { runs: &self.runs, transient_runs: &self.transient_runs, ratios };
+        identify_measured(&self.structure, &self.sources, measured, &self.settings, control)
+    }
 }

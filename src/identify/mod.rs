@@ -46,13 +46,13 @@ pub use settings::Settings;
 use crate::balance::{Expansion, Weights};
 use crate::control::Control;
 use crate::effects::Source;
-use crate::measurement::{MeasuredRatio, Run};
+use crate::measurement::Run;
 use crate::structure::Structure;
 use found::Found;
 use problem::Problem;
 use search::{SizeRanking, search};
 use state::IdentificationState;
-
+use stopping::Pass;
 use system::System;
 
 /// Most passes of search and refit; each starts from the motion that the last accepted set gives.
@@ -89,29 +89,16 @@ pub fn identify(
     settings: &Settings,
     control: &Control,
 ) -> Result<Outcome, IdentifyError> {
-    identify_with_ratios(structure, sources, runs, &[], settings, control)
-}
-
-/// [`identify`] with measured damping ratios as rows beside those of the runs, each weighted by its deviation.
-///
-/// # Errors
-/// As [`identify`]; and ratios that belong to no mode, or that stand beside laws whose damping depends on the amplitude.
-pub fn identify_with_ratios(
-    structure: &Structure,
-    sources: &[Source],
-    runs: &[Run],
-    ratios: &[MeasuredRatio],
-    settings: &Settings,
-    control: &Control,
-) -> Result<Outcome, IdentifyError> {
-    identify_measured(structure, sources, Measurements { runs, transient_runs: &[], ratios }, settings, control)
+    let measured = Measurements { runs, transient_runs: &[], ratios: &[] };
+    identify_measured(structure, sources, measured, settings, control)
 }
 
 /// [`identify`] from steady runs, decays, transients and damping ratios together: all that are enabled, each row weighted by
 /// the covariance of its noise.
 ///
 /// # Errors
-/// As [`identify_with_ratios`]; and records whose windows give no energy equation.
+/// As [`identify`]; records whose windows give no energy equation; ratios that belong to no mode, or that stand beside laws whose damping
+/// depends on the amplitude.
 pub fn identify_measured(
     structure: &Structure,
     sources: &[Source],
@@ -220,17 +207,18 @@ fn passes(
     let mut state = start;
     let mut last: Option<Vec<usize>> = None;
     let mut best: Option<Found> = None;
-    for pass in 0..PASSES {
+    for number in 1..=PASSES {
         let system = System::of(form, problem, &state);
-        let rankings = ranked(problem, &state, &system, form, control)?;
-        let decision = stopping::decide(problem, &state, &system, &rankings, form);
+        let pass = Pass { problem, state: &state, system: &system, form };
+        let rankings = ranked(&pass, control)?;
+        let decision = pass.decide(&rankings);
         let set = rankings[decision.accepted].best().columns.clone();
         let settled = last.as_ref() == Some(&set);
         let coefficients = rankings[decision.accepted].best().coefficients.clone();
         state = refit(problem, &state, &set, &coefficients, form, control)?;
         let system = System::of(form, problem, &state);
         best = Some(Found { state: state.clone(), system, rankings, decision, form });
-        control.report(0.1 + 0.8 * (pass + 1) as f64 / PASSES as f64);
+        control.report(0.1 + 0.8 * number as f64 / PASSES as f64);
         if settled {
             break;
         }
@@ -238,22 +226,16 @@ fn passes(
     }
     let mut found = best.ok_or(IdentifyError::NoCandidates)?;
     // The history is told at the motion that was accepted.
-    found.rankings = ranked(problem, &found.state, &found.system, form, control)?;
-    found.decision = stopping::decide(problem, &found.state, &found.system, &found.rankings, form);
+    let pass = Pass { problem, state: &found.state, system: &found.system, form };
+    found.rankings = ranked(&pass, control)?;
+    found.decision = pass.decide(&found.rankings);
     Ok(found)
 }
 
 /// The best sets of each size, as far as they may decide.
-fn ranked(
-    problem: &Problem<'_>,
-    state: &IdentificationState,
-    system: &System,
-    form: Form,
-    control: &Control,
-) -> Result<Vec<SizeRanking>, IdentifyError> {
-    let decided = |rankings: &[SizeRanking]| stopping::is_decided(problem, state, system, rankings, form);
-    let mut rankings = search(problem, system, &decided, control)?;
-    negligible::lift_the_rule(problem, state, &mut rankings);
+fn ranked(pass: &Pass<'_, '_>, control: &Control) -> Result<Vec<SizeRanking>, IdentifyError> {
+    let mut rankings = search(pass.problem, pass.system, &|rankings| pass.is_decided(rankings), control)?;
+    negligible::lift_the_rule(pass.problem, pass.state, &mut rankings);
     Ok(rankings)
 }
 

@@ -38,90 +38,82 @@ struct Score {
     criterion: f64,
 }
 
-/// Decides among the best sets of each size.
-pub(crate) fn decide(
-    problem: &Problem<'_>,
-    state: &IdentificationState,
-    system: &System,
-    rankings: &[SizeRanking],
-    form: Form,
-) -> Decision {
-    let decision = decided(problem, state, system, rankings, form);
-    let count = rankings[decision.accepted].best().columns.len();
-    if matches!(decision.status, Status::AboveNoise | Status::AboveAngle) || count < system.rows() {
-        return decision;
-    }
-    let reason = format!(
-        "{count} source{} from {} equation{}: nothing is left to judge them by; measure more runs or name fewer candidates",
-        plural(count),
-        system.rows(),
-        plural(system.rows())
-    );
-    Decision { status: Status::NothingLeft, reason, ..decision }
+/// One pass of the search: the equations at one motion, on which the best sets of each size are judged.
+pub(crate) struct Pass<'a, 'p> {
+    pub problem: &'a Problem<'p>,
+    pub state: &'a IdentificationState,
+    pub system: &'a System,
+    pub form: Form,
 }
 
 /// Sizes beyond the accepted one that must not earn their sources for larger ones not to be looked at.
 const BEYOND: usize = 2;
 
-/// Whether larger sets than those of `rankings` would change nothing: the accepted set is within the noise, or below the angle,
-/// and the best of the next sizes gain less than strong evidence asks for, less with each.
-pub(crate) fn is_decided(
-    problem: &Problem<'_>,
-    state: &IdentificationState,
-    system: &System,
-    rankings: &[SizeRanking],
-    form: Form,
-) -> bool {
-    if rankings.is_empty() {
-        return false;
-    }
-    let decision = decided(problem, state, system, rankings, form);
-    let accepted = decision.larger.unwrap_or(decision.accepted);
-    match decision.status {
-        // The first size below the angle is taken, whatever comes after it.
-        Status::BelowAngle => true,
-        Status::WithinNoise if rankings.len() > accepted + BEYOND => {
-            let criteria: Vec<f64> =
-                rankings[accepted..].iter().map(|ranking| score(problem, system, ranking).criterion).collect();
-            criteria.windows(2).all(|pair| pair[1] > pair[0])
+impl Pass<'_, '_> {
+    /// Decides among the best sets of each size.
+    pub(crate) fn decide(&self, rankings: &[SizeRanking]) -> Decision {
+        let (decision, rows) = (self.decided(rankings), self.system.rows());
+        let count = rankings[decision.accepted].best().columns.len();
+        if matches!(decision.status, Status::AboveNoise | Status::AboveAngle) || count < rows {
+            return decision;
         }
-        _ => false,
+        let reason = format!(
+            "{count} source{} from {rows} equation{}: nothing is left to judge them by; measure more runs or name fewer candidates",
+            plural(count),
+            plural(rows)
+        );
+        Decision { status: Status::NothingLeft, reason, ..decision }
     }
-}
 
-fn decided(
-    problem: &Problem<'_>,
-    state: &IdentificationState,
-    system: &System,
-    rankings: &[SizeRanking],
-    form: Form,
-) -> Decision {
-    let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
-    if angle_rules && form == Form::Energy || !problem.is_noisy() {
-        return by_angle(problem, state, rankings, form);
+    /// Whether larger sets than those of `rankings` would change nothing: the accepted set is within the noise, or below the angle,
+    /// and the best of the next sizes gain less than strong evidence asks for, less with each.
+    pub(crate) fn is_decided(&self, rankings: &[SizeRanking]) -> bool {
+        if rankings.is_empty() {
+            return false;
+        }
+        let decision = self.decided(rankings);
+        let accepted = decision.larger.unwrap_or(decision.accepted);
+        match decision.status {
+            // The first size below the angle is taken, whatever comes after it.
+            Status::BelowAngle => true,
+            Status::WithinNoise if rankings.len() > accepted + BEYOND => {
+                let criteria: Vec<f64> =
+                    rankings[accepted..].iter().map(|ranking| self.score(ranking).criterion).collect();
+                criteria.windows(2).all(|pair| pair[1] > pair[0])
+            }
+            _ => false,
+        }
     }
-    let scores: Vec<Score> = rankings.iter().map(|r| score(problem, system, r)).collect();
-    let within = |k: usize| scores[k].chi_square <= chi_square_quantile(1.0 - REJECTED, scores[k].freedom);
-    let decision = match (0..scores.len()).find(|&k| within(k)) {
-        Some(first) => within_noise(system, rankings, &scores, first),
-        None => above_noise(&scores),
-    };
-    let Some((accepted, reason)) = without_negligible(problem, state, rankings, decision.accepted) else {
-        return decision;
-    };
-    let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
-    Decision { accepted, status, reason, larger: Some(decision.accepted) }
-}
 
-fn score(problem: &Problem<'_>, system: &System, ranking: &SizeRanking) -> Score {
-    let best = ranking.best();
-    let chi_square = system.chi_square(&best.columns, &best.coefficients);
-    let (count, rows) = (best.columns.len(), system.rows());
-    Score {
-        count,
-        chi_square,
-        freedom: solve::freedom(rows, count),
-        criterion: chi_square + penalty(problem, count, rows),
+    fn decided(&self, rankings: &[SizeRanking]) -> Decision {
+        let Self { problem, state, system, form } = *self;
+        let angle_rules = problem.settings.weights == Weights::None || !problem.is_noisy();
+        if angle_rules && form == Form::Energy || !problem.is_noisy() {
+            return by_angle(problem, state, rankings, form);
+        }
+        let scores: Vec<Score> = rankings.iter().map(|r| self.score(r)).collect();
+        let within = |k: usize| scores[k].chi_square <= chi_square_quantile(1.0 - REJECTED, scores[k].freedom);
+        let decision = match (0..scores.len()).find(|&k| within(k)) {
+            Some(first) => within_noise(system, rankings, &scores, first),
+            None => above_noise(&scores),
+        };
+        let Some((accepted, reason)) = without_negligible(problem, state, rankings, decision.accepted) else {
+            return decision;
+        };
+        let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
+        Decision { accepted, status, reason, larger: Some(decision.accepted) }
+    }
+
+    fn score(&self, ranking: &SizeRanking) -> Score {
+        let best = ranking.best();
+        let chi_square = self.system.chi_square(&best.columns, &best.coefficients);
+        let (count, rows) = (best.columns.len(), self.system.rows());
+        Score {
+            count,
+            chi_square,
+            freedom: solve::freedom(rows, count),
+            criterion: chi_square + penalty(self.problem, count, rows),
+        }
     }
 }
 

@@ -102,9 +102,9 @@ fn larger_sets_change_nothing_once_it_is_decided() {
     let state = response_start(&problem, &start, &control).unwrap().unwrap();
     let found = passes(&problem, state, Form::Response, &control).unwrap();
     let all = &found.rankings;
-    let accepted =
-        |n: usize| stopping::decide(&problem, &found.state, &found.system, &all[..n], Form::Response).accepted;
-    let decided = |n: usize| stopping::is_decided(&problem, &found.state, &found.system, &all[..n], Form::Response);
+    let pass = Pass { problem: &problem, state: &found.state, system: &found.system, form: Form::Response };
+    let accepted = |n: usize| pass.decide(&all[..n]).accepted;
+    let decided = |n: usize| pass.is_decided(&all[..n]);
     let first = (0..=all.len()).find(|&n| decided(n)).unwrap();
     assert!(first >= accepted(all.len()) + 3 && first < all.len(), "{first} of {}", all.len());
     assert!((first..=all.len()).all(|n| accepted(n) == accepted(all.len())));

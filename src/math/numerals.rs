@@ -1,4 +1,4 @@
-//! Numbers in words: as many digits as are known.
+//! Numbers in words: as many digits as are known, counted things.
 
 /// Decimal places that are written out for a number that is not small.
 const MOST_PLACES: usize = 8;
@@ -35,6 +35,11 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
     let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
     format!("{value:.decimals$}")
+}
+
+/// A number of things in words: `1 source`, `3 sources`.
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Decimal places at which a deviation has two digits.

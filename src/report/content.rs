@@ -9,7 +9,7 @@ use crate::diagnosis::result::{Suggestion, Verdict};
 use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::identify::{Measurements, Outcome, identify_measured};
+use crate::identify::Outcome;
 use crate::session::identified::take_over;
 use crate::session::time_limit::answer_within;
 use crate::session::validation::{
@@ -79,11 +79,8 @@ impl<'a> Content<'a> {
     /// Computes what is not known.
     pub fn complete(project: &'a Project, known: Known, request: &Request, control: &Control) -> Self {
         let p = project;
-        let outcome = known.outcome.unwrap_or_else(|| {
-            let given = Measurements { runs: &p.runs, transient_runs: &p.transient_runs, ratios: &[] };
-            let found = identify_measured(&p.structure, &p.sources, given, &p.settings, control);
-            found.map(Arc::new).map_err(|e| e.to_string())
-        });
+        let outcome =
+            known.outcome.unwrap_or_else(|| p.identify(&[], control).map(Arc::new).map_err(|e| e.to_string()));
         let compared =
             |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string());
         let as_it_is = known.comparison.unwrap_or_else(|| compared(p));

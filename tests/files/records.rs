@@ -23,11 +23,11 @@ fn points() -> Structure {
 const ROWS: &str = "0,1,2\n0.1,3,4\n0.2,5,6\n0.3,7,8\n0.4,9,10\n";
 
 fn read(text: &str) -> Record {
-    parse_record(text.as_bytes(), "run.csv", &beam()).unwrap_or_else(|error| panic!("{error}"))
+    parse_record(text.as_bytes(), "run.csv", &beam(), &Control::unattended()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn message(text: &[u8]) -> String {
-    parse_record(text, "run.csv", &beam()).unwrap_err().to_string()
+    parse_record(text, "run.csv", &beam(), &Control::unattended()).unwrap_err().to_string()
 }
 
 #[test]
@@ -68,7 +68,10 @@ fn rotations_and_points_have_their_units() {
     let record = read(&format!("time [s],force@2 [N],acc@4 [rad/s^2]\n{ROWS}"));
     assert_eq!(record.channels()[1].dof, 3);
     let text = format!("time [s],force@tip [N],acc@1 [rad/s^2]\n{ROWS}");
-    assert_eq!(parse_record(text.as_bytes(), "run.csv", &points()).unwrap().channels()[0].dof, 0);
+    assert_eq!(
+        parse_record(text.as_bytes(), "run.csv", &points(), &Control::unattended()).unwrap().channels()[0].dof,
+        0
+    );
 }
 
 #[test]
@@ -365,13 +368,13 @@ fn harmonics_are_written_with_their_deviations() {
 proptest! {
     #[test]
     fn bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
-        let _ = parse_record(&bytes, "x", &beam());
+        let _ = parse_record(&bytes, "x", &beam(), &Control::unattended());
         let _ = parse_harmonics(&bytes, "x", &beam());
     }
 
     #[test]
     fn tables_never_panic(text in "(time \\[s\\]|run,frequency_hz,channel)?[,;\t](force@1 \\[N\\]|harmonic,cos,sin)?\n([-+0-9.eE,;\"\t a-z]{0,12}\n){0,12}") {
-        let error = parse_record(text.as_bytes(), "x", &beam()).err().map(|e| e.to_string());
+        let error = parse_record(text.as_bytes(), "x", &beam(), &Control::unattended()).err().map(|e| e.to_string());
         prop_assert!(error.is_none_or(|e| !e.contains('\n')));
         let error = parse_harmonics(text.as_bytes(), "x", &beam()).err().map(|e| e.to_string());
         prop_assert!(error.is_none_or(|e| !e.contains('\n')));
@@ -383,7 +386,7 @@ proptest! {
         for (n, value) in values.iter().enumerate() {
             text.push_str(&format!("{n},{:e}\n", value * small));
         }
-        let record = parse_record(text.as_bytes(), "x", &beam()).unwrap();
+        let record = parse_record(text.as_bytes(), "x", &beam(), &Control::unattended()).unwrap();
         let path = tempfile::NamedTempFile::new().unwrap().into_temp_path();
         write_record(&path, &record, &beam(), None).unwrap();
         let again = read_record(&path, &beam()).unwrap();

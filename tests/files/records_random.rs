@@ -1,6 +1,7 @@
 //! Damage to a good time record ends in a record or in one line, never in a panic.
 
 use crate::common::models::cantilever;
+use dashpot::control::Control;
 use dashpot::exchange::records::{parse_harmonics, parse_record};
 use proptest::prelude::*;
 
@@ -28,7 +29,7 @@ proptest! {
         }
         let beam = cantilever(2);
         let lines = |said: String| said.lines().count();
-        if let Err(error) = parse_record(&bytes, "x", &beam) {
+        if let Err(error) = parse_record(&bytes, "x", &beam, &Control::unattended()) {
             prop_assert_eq!(lines(error.to_string()), 1);
         }
         if let Err(error) = parse_harmonics(&bytes, "x", &beam) {

@@ -4,7 +4,7 @@ use super::support::*;
 use dashpot::balance::{Expansion, Weights};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Source, State};
-use dashpot::identify::{Form, Outcome, Settings, identify_with_ratios};
+use dashpot::identify::{Form, IdentifyError, Measurements, Outcome, Settings, identify_measured};
 use dashpot::measurement::{MeasuredRatio, Run};
 use dashpot::response::linear_matrices::LinearMatrices;
 use dashpot::structure::Structure;
@@ -34,7 +34,17 @@ fn exact_ratios(structure: &Structure, deviation: f64) -> Vec<MeasuredRatio> {
 }
 
 fn identified(sources: &[Source], runs: &[Run], ratios: &[MeasuredRatio], settings: &Settings) -> Outcome {
-    identify_with_ratios(&five_masses(), sources, runs, ratios, settings, &Control::unattended()).unwrap()
+    with_ratios(sources, runs, ratios, settings).unwrap()
+}
+
+fn with_ratios(
+    sources: &[Source],
+    runs: &[Run],
+    ratios: &[MeasuredRatio],
+    settings: &Settings,
+) -> Result<Outcome, IdentifyError> {
+    let measured = Measurements { runs, transient_runs: &[], ratios };
+    identify_measured(&five_masses(), sources, measured, settings, &Control::unattended())
 }
 
 #[test]
@@ -108,9 +118,7 @@ fn ratios_that_cannot_join_are_named() {
     let structure = five_masses();
     let runs = Rig::near_modes(&structure, 5, 1.01, 0, &[0, 1, 2, 3, 4]).runs(&structure, &truth());
     let error = |sources: &[Source], ratio: MeasuredRatio| {
-        identify_with_ratios(&structure, sources, &runs, &[ratio], &all_sets(), &Control::unattended())
-            .unwrap_err()
-            .to_string()
+        with_ratios(sources, &runs, &[ratio], &all_sets()).unwrap_err().to_string()
     };
     let good = exact_ratios(&structure, 0.01)[0];
     let far = error(&candidates(), MeasuredRatio { omega: 10.0, ..good });

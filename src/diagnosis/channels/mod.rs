@@ -34,28 +34,18 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
     data.doubted |= faults.iter().any(|fault| matches!(fault.fault, Fault::Unreliable(_)));
     for run in &mut data.runs {
         for fault in faults {
+            let is_first = |channel: &&mut ChannelData| channel.name == fault.channels[0];
+            let responses = run.responses.iter_mut();
             match &fault.fault {
-                Fault::Factor(factor) => run
-                    .responses
-                    .iter_mut()
-                    .filter(|channel| channel.name == fault.channels[0])
-                    .for_each(|channel| divide(channel, *factor)),
-                Fault::Common(factor) => run
-                    .responses
-                    .iter_mut()
+                Fault::Factor(factor) => responses.filter(is_first).for_each(|channel| divide(channel, *factor)),
+                Fault::Common(factor) => responses
                     .chain(&mut run.forces)
                     .filter(|channel| fault.channels.contains(&channel.name))
                     .for_each(|channel| divide(channel, *factor)),
-                Fault::Unreliable(scatter) => run
-                    .responses
-                    .iter_mut()
-                    .filter(|channel| channel.name == fault.channels[0])
-                    .for_each(|channel| widen(channel, *scatter)),
-                Fault::Elsewhere(dof) => run
-                    .responses
-                    .iter_mut()
+                Fault::Unreliable(scatter) => responses.filter(is_first).for_each(|channel| widen(channel, *scatter)),
+                Fault::Elsewhere(dof) => responses
                     .chain(&mut run.forces)
-                    .filter(|channel| channel.name == fault.channels[0])
+                    .filter(is_first)
                     .for_each(|channel| (channel.dof, channel.name) = (*dof, fault.channels[1].clone())),
                 Fault::Exchanged => {
                     let position = |name: &String| run.responses.iter().position(|channel| channel.name == *name);

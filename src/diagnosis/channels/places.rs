@@ -13,6 +13,7 @@
 use super::cells::{Cells, NextToForce};
 use super::common::by_mode;
 use super::fault::{ChannelFault, Fault};
+use crate::math::statistics::mean;
 use crate::structure::Structure;
 use crate::structure::modes::Modes;
 
@@ -123,8 +124,4 @@ fn errors(shape: &[(usize, f64)], dof: usize, structure: &Structure, modes: &Mod
 /// The name of a channel at another label.
 pub(super) fn renamed(name: &str, label: &str) -> String {
     format!("{}@{label}", name.split('@').next().unwrap_or_default())
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }

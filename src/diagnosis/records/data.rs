@@ -286,9 +286,8 @@ fn modes_followed(list: &[RecordData], modes: &Modes) -> usize {
     let nyquist = list.iter().map(|r| 0.4 / r.step).fold(f64::INFINITY, f64::min);
     let limit = (1.5 * top).min(nyquist);
     let below = modes.omega.iter().filter(|w| **w <= TAU * limit).count();
-    let shown =
-        list.iter().map(|r| r.observable_modes(modes, below, MOST_MODES, BESIDE_LIMIT * limit)).max().unwrap_or(0);
-    below.max(shown).clamp(1, MOST_MODES).min(modes.len())
+    let observable = |r: &RecordData| r.observable_modes(modes, below, MOST_MODES, BESIDE_LIMIT * limit);
+    list.iter().map(observable).fold(below, usize::max).clamp(1, MOST_MODES).min(modes.len())
 }
 
 /// Frequency (Hz) of the last mode that is followed; of the motion where that mode has no period within a record, as of a carriage on

@@ -11,23 +11,19 @@ use super::request::{Imported, Request};
 use super::roving;
 use super::run_source::{RunSource, kinds};
 use super::single_mode::{SingleMode, single_mode};
-use super::text::{comment, counted, named, points};
+use super::text::{comment, named, points};
 use crate::control::Control;
 use crate::exchange::mapping::{ChannelTable, Proposal, runs_of};
 use crate::exchange::project::plan;
+use crate::math::numerals::counted;
 use crate::measurement::channel::parse_name;
 use crate::measurement::{Kind, Quantity, Record};
 use dashpot_datafiles::open;
-use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Fewest samples of a run.
 const FEWEST: usize = 32;
-/// A table of a mapping, as it stands in a template or a project.
-#[derive(Serialize)]
-struct Mapping<'a> {
-    channel: [&'a ChannelTable; 1],
-}
 
 /// The project of records by their mapping.
 pub(super) fn import(request: &Request, mapping: Proposal, out: &Path, control: &Control) -> Result<Imported> {
@@ -245,7 +241,7 @@ pub(super) fn channels(mapping: &Proposal) -> String {
 
 fn toml_of(table: &ChannelTable) -> String {
     // A table of words and numbers always is TOML.
-    toml::to_string(&Mapping { channel: [table] }).unwrap_or_default()
+    toml::to_string(&BTreeMap::from([("channel", [table])])).unwrap_or_default()
 }
 
 /// Channels that are not used, as comments that become tables where their marks are taken away.

@@ -1,14 +1,14 @@
 //! Why nothing of a file can be imported, in one line that says how to mend it.
 
-use crate::exchange::mapping::Proposal;
 use crate::exchange::mapping::samples::{cut_off, time_goes_back};
+use crate::exchange::mapping::{NotMapped, Proposal};
 use dashpot_datafiles::{Contents, Defect, Kind, Note, Set};
 
 /// Most channels that are named.
 const MOST_NAMED: usize = 3;
 
 /// What is wrong with a file of which no channel could be mapped; `left` are its channels with the reasons.
-pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String {
+pub(super) fn refusal(contents: &Contents, left: &[(String, NotMapped)]) -> String {
     let sets = |kind: Kind| contents.sets.iter().filter(move |set| set.kind == kind);
     let channels = |set: &Set| set.channels.len();
     let bare =
@@ -53,7 +53,8 @@ pub(super) fn refusal(contents: &Contents, left: &[(String, String)]) -> String 
 
 /// What is wrong with a file whose last row or recording was cut off, so that a channel of `mapping` is left out.
 pub(super) fn cut_short(contents: &Contents, mapping: &Proposal) -> Option<String> {
-    (0..contents.sets.len()).find_map(|set| cut_off(contents, set)).filter(|_| mapping.leaves_another_length())
+    let shorter = mapping.left.iter().any(|(_, why)| matches!(why, NotMapped::OtherLength { .. }));
+    (0..contents.sets.len()).find_map(|set| cut_off(contents, set)).filter(|_| shorter)
 }
 
 /// What is wrong with a file that does not say the time between samples.

@@ -3,7 +3,7 @@
 use super::text::comment;
 use crate::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use crate::exchange::mapping::units::LabUnit;
-use crate::exchange::mapping::{ChannelTable, Proposal};
+use crate::exchange::mapping::{ChannelTable, NotMapped, Proposal};
 use crate::measurement::{Kind, Part, Quantity, Record, proposal};
 use std::f64::consts::TAU;
 
@@ -72,7 +72,7 @@ pub(super) fn single_mode(record: &Record, mapping: &mut Proposal) -> Option<Sin
     mapping.assumed.iter_mut().for_each(|(name, _)| *name = table.channel());
     for (_, other) in all.iter().enumerate().filter(|(i, _)| *i != at) {
         let why = format!("one mass follows one channel, the clearest, \"{}\"", all[at].name);
-        mapping.left.push((other.name.clone(), why));
+        mapping.left.push((other.name.clone(), NotMapped::Other(why)));
     }
     mapping.uncalibrated.clear();
     let channel = table.name.clone();

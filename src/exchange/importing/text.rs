@@ -10,11 +10,6 @@ pub(super) fn points(labels: &[String]) -> String {
     format!("[structure]\nkind = \"points\"\ndofs = [{}]\n", quoted.join(", "))
 }
 
-/// A number of things in words: `1 run`, `3 runs`.
-pub(super) fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
-}
-
 /// Lines of a comment.
 pub(super) fn comment(text: &str) -> String {
     let mut out = String::new();

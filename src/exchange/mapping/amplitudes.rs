@@ -8,12 +8,12 @@
 //! Amplitudes are channels of the mapping (`[[channel]]`: quantity, DOF, unit, sign, factor); `[harmonics.phases]` says which column
 //! holds the phase of which: `Y = A exp(i phi)`, where `phi` is the phase by which the channel leads the force.
 
-use super::fault::{At, data};
 use super::guess::place_of;
 use super::propose::{Proposal, propose};
 use super::samples::factor_to_si;
 use super::table::ChannelTable;
 use crate::exchange::records::columns::{Role, role};
+use crate::exchange::records::error::At;
 use crate::exchange::records::{HarmonicsRun, RecordFileError};
 use crate::measurement::record::MOST;
 use crate::measurement::{Channel as Measured, ChannelFit, HarmonicFit, Quantity};
@@ -118,7 +118,7 @@ fn levels(file: &DataFile, s: usize, at: &At<'_>) -> Result<Option<Vec<i64>>, Re
     let (_, values) = column(file, s, name, at)?;
     if let Some(row) = values.iter().position(|value| value.fract() != 0.0 || value.abs() > MOST_LEVEL) {
         let problem = format!("row {} is {}, and levels are whole numbers", row + 1, values[row]);
-        return Err(at.error(Some(name), format!("{problem}; correct it or rename the column")));
+        return Err(at.channel(Some(name), format!("{problem}; correct it or rename the column")));
     }
     Ok(Some(values.into_iter().map(|value| value as i64).collect()))
 }
@@ -159,13 +159,13 @@ pub(crate) fn read_amplitudes(
 ) -> Result<Vec<HarmonicsRun>, RecordFileError> {
     let name = path.display().to_string();
     let at = At { file: &name };
-    let file = open(path).map_err(|error| data(&at, error))?;
+    let file = open(path).map_err(|error| at.data(error))?;
     let s = set_of(&file, &table, &at)?;
     let wanted = table.channels.iter().filter(|channel| !channel.optional || has(&file, s, &channel.name));
     let columns: Vec<Column> =
         wanted.map(|channel| Column::read(&file, s, channel, &table, structure, &at)).collect::<Result<_, _>>()?;
     let Some(frequencies) = frequencies(&file, s) else {
-        return Err(at.error(None, "the table has no column of frequencies; call it `Frequency [Hz]`"));
+        return Err(at.channel(None, "the table has no column of frequencies; call it `Frequency [Hz]`"));
     };
     columns.iter().try_for_each(|column| column.measurable(&at))?;
     let levels = levels(&file, s, &at)?;
@@ -173,7 +173,7 @@ pub(crate) fn read_amplitudes(
     let run = |(row, &frequency_hz): (usize, &f64)| {
         let fit = row_of(&columns, row, frequency_hz, table.phase_of).ok_or_else(|| {
             let problem = "has no frequency above 0 Hz, or an amplitude or phase that is no number; leave the row out";
-            at.error(None, format!("row {} of its numbers {problem}", row + 1))
+            at.channel(None, format!("row {} of its numbers {problem}", row + 1))
         })?;
         let level = levels.as_ref().and_then(|levels| levels.get(row).copied());
         Ok(HarmonicsRun { name: format!("{set}row {}", row + 1), fit, level, session: None })
@@ -207,7 +207,7 @@ impl Column {
         let phases = table.phases.get(&channel.name).map(|name| column(file, s, name, at)).transpose()?;
         let phases = phases.map(|(c, values)| radians(&columns[c], values));
         if phases.is_none() && channel.quantity != Quantity::Force {
-            return Err(at.error(Some(&channel.name), "has no phase; name its column under [harmonics.phases]"));
+            return Err(at.channel(Some(&channel.name), "has no phase; name its column under [harmonics.phases]"));
         }
         Ok(Self { channel: target, factor, sizes, phases })
     }
@@ -218,7 +218,7 @@ impl Column {
         let Some(row) = self.sizes.iter().position(beyond) else { return Ok(()) };
         let value = self.sizes[row] * self.factor;
         let problem = format!("row {} is {value:e} (SI units), more than any sensor reads", row + 1);
-        Err(at.error(Some(&self.channel.to_string()), format!("{problem}; mend the number or leave the row out")))
+        Err(at.channel(Some(&self.channel.to_string()), format!("{problem}; mend the number or leave the row out")))
     }
 }
 
@@ -256,13 +256,13 @@ fn set_of(file: &DataFile, table: &AmplitudeTable<'_>, at: &At<'_>) -> Result<us
     let names = || sets.iter().take(12).map(|set| format!("\"{}\"", set.name)).collect::<Vec<_>>().join(", ");
     if let Some(wanted) = table.set {
         let named = sets.iter().position(|set| set.name == wanted);
-        return named.ok_or_else(|| at.error(None, format!("the file has no set \"{wanted}\"; it has {}", names())));
+        return named.ok_or_else(|| at.channel(None, format!("the file has no set \"{wanted}\"; it has {}", names())));
     }
     let whole = |s: &usize| table.phases.iter().all(|(size, phase)| has(file, *s, size) && has(file, *s, phase));
     (0..sets.len()).find(whole).ok_or_else(|| {
         let wanted: Vec<String> =
             table.phases.iter().flat_map(|(size, phase)| [size, phase]).map(|name| format!("\"{name}\"")).collect();
-        at.error(None, format!("no table of the file has the columns {} of [harmonics.phases]", wanted.join(", ")))
+        at.channel(None, format!("no table of the file has the columns {} of [harmonics.phases]", wanted.join(", ")))
     })
 }
 
@@ -275,11 +275,13 @@ fn column(file: &DataFile, set: usize, name: &str, at: &At<'_>) -> Result<(usize
     let channels = &file.contents().sets[set].channels;
     let Some(c) = channels.iter().position(|channel| channel.name == name) else {
         let names: Vec<String> = channels.iter().take(12).map(|channel| format!("\"{}\"", channel.name)).collect();
-        return Err(at.error(Some(name), format!("the table has no column of that name; it has {}", names.join(", "))));
+        return Err(
+            at.channel(Some(name), format!("the table has no column of that name; it has {}", names.join(", ")))
+        );
     };
-    match file.read(set, c).map_err(|error| data(at, error))? {
+    match file.read(set, c).map_err(|error| at.data(error))? {
         Values::Real(values) => Ok((c, values)),
-        Values::Complex(_) => Err(at.error(Some(name), "is complex, and an amplitude or phase is needed")),
+        Values::Complex(_) => Err(at.channel(Some(name), "is complex, and an amplitude or phase is needed")),
     }
 }
 

@@ -4,7 +4,6 @@
 //! by `dashpot_datafiles` and never rewritten.
 
 mod amplitudes;
-mod fault;
 mod guess;
 mod memory;
 pub mod propose;
@@ -18,7 +17,7 @@ pub(crate) mod units;
 pub use amplitudes::Amplitudes;
 pub(crate) use amplitudes::{AmplitudeTable, read_amplitudes, sets_with};
 pub(crate) use propose::DIRECTION_ASSUMED;
-pub use propose::{FORCE_WITHOUT_PLACE, Proposal, propose};
+pub use propose::{FORCE_WITHOUT_PLACE, NotMapped, Proposal, propose};
 pub use read::is_own_record;
 pub(crate) use read::{Template, read_mapped, reads_as_own};
 pub use runs::runs_of;

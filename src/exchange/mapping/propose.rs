@@ -20,11 +20,20 @@ const TIMES: &str = "time of ";
 /// How an assumption begins that a force acts at the first motion, whose DOF follows.
 pub const FORCE_WITHOUT_PLACE: &str = "the file says no DOF: it is taken to act at DOF";
 
-/// How it is said that a channel has another rate than the others, or another length.
-const OTHER_RATE: &str = "is sampled at another rate";
-const OTHER_LENGTH: &str = "where the others have";
 /// How an assumption ends that the base moves in a direction which the file does not say.
 pub(crate) const DIRECTION_ASSUMED: &str = " is assumed";
+
+/// Why a channel is not mapped.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum NotMapped {
+    #[error("it is sampled at another rate than the others")]
+    OtherRate,
+    #[error("it has {own} values where the others have {others}")]
+    OtherLength { own: u64, others: u64 },
+    #[error("{0}")]
+    Other(String),
+}
 
 /// What is proposed for a file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,7 +45,7 @@ pub struct Proposal {
     /// Channels in the unit of their sensor, as displacements with factor 1 m a unit: nothing says what they measure.
     pub uncalibrated: Vec<ChannelTable>,
     /// Channels that are not mapped, each with the reason.
-    pub left: Vec<(String, String)>,
+    pub left: Vec<(String, NotMapped)>,
     /// Whether the file does not say the time between samples.
     pub needs_sampling: bool,
     /// Further runs of a file in which every data set is one channel: their sets, one a mapped channel in their order.
@@ -167,19 +176,13 @@ fn take_for_base(drafts: &mut [Draft<'_>]) {
 
 impl Proposal {
     fn leave(&mut self, channel: &Channel, reason: &str) {
-        self.left.push((channel.name.clone(), reason.to_owned()));
+        self.left.push((channel.name.clone(), NotMapped::Other(reason.to_owned())));
     }
 
     /// The channel of motion that is left out since it is not recorded at the rate of the forces, where they alone are mapped.
-    pub(crate) fn motion_of_another_rate(&self) -> Option<&(String, String)> {
+    pub(crate) fn motion_of_another_rate(&self) -> Option<&(String, NotMapped)> {
         let forces = !self.channels.is_empty() && self.channels.iter().all(|table| table.quantity == Quantity::Force);
-        let uneven = |why: &str| why.contains(OTHER_RATE) || why.contains(OTHER_LENGTH);
-        self.left.iter().find(|(_, why)| forces && uneven(why))
-    }
-
-    /// Whether a channel is left out since it has another number of values than the others.
-    pub(crate) fn leaves_another_length(&self) -> bool {
-        self.left.iter().any(|(_, why)| why.contains(OTHER_LENGTH))
+        self.left.iter().find(|(_, why)| forces && !matches!(why, NotMapped::Other(_)))
     }
 
     /// Keeps the channels of the length and step that most of them have: those of a run share their times.
@@ -192,11 +195,9 @@ impl Proposal {
         let Some(most) = drafts.iter().rev().max_by_key(|draft| alike(draft)).map(times) else { return drafts };
         let (kept, others): (Vec<_>, Vec<_>) = drafts.into_iter().partition(|draft| times(draft) == most);
         for draft in others {
-            let reason = match (draft.channel.count, most.0) {
-                (own, most) if own == most => format!("it {OTHER_RATE} than the others"),
-                (own, most) => format!("it has {own} values {OTHER_LENGTH} {most}"),
-            };
-            self.leave(draft.channel, &reason);
+            let (own, others) = (draft.channel.count, most.0);
+            let reason = if own == others { NotMapped::OtherRate } else { NotMapped::OtherLength { own, others } };
+            self.left.push((draft.channel.name.clone(), reason));
         }
         kept
     }

@@ -1,11 +1,11 @@
 //! A run out of a laboratory file by the mapping of the project.
 
-use super::fault::{At, data};
 use super::memory::too_large;
 use super::propose::own_name;
 use super::samples::{same_even_axis, same_time, samples, times, whole};
 use super::table::ChannelTable;
 use super::units::LabUnit;
+use crate::exchange::records::error::At;
 use crate::exchange::records::{RecordFileError, RecordProblem, base_channel, known_labels};
 use crate::measurement::channel::ChannelName;
 use crate::measurement::{Channel, Quantity, Record};
@@ -68,7 +68,7 @@ pub(crate) fn read_mapped(
 ) -> Result<Record, RecordFileError> {
     let name = path.display().to_string();
     let at = At { file: &name };
-    let file = open(path).map_err(|error| data(&at, error))?;
+    let file = open(path).map_err(|error| at.data(error))?;
     let own;
     let channels = if template.channels.is_empty() {
         own = own_channels(&file);
@@ -84,14 +84,14 @@ pub(crate) fn read_mapped(
         channels
     };
     if channels.is_empty() {
-        return Err(at.error(
+        return Err(at.channel(
             None,
             "no [[channel]] says what its channels measure; `dashpot import FILE --propose` writes them",
         ));
     }
     if !template.sets.is_empty() && template.sets.len() != channels.len() {
         let (sets, channels) = (template.sets.len(), channels.len());
-        return Err(at.error(
+        return Err(at.channel(
             None,
             format!("`sets` of its [[run]] names {sets} sets, one for each of the {channels} [[channel]] is needed"),
         ));
@@ -101,7 +101,7 @@ pub(crate) fn read_mapped(
     let places = channels.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
     let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
     if let Some(problem) = too_large(places.iter().map(count).sum(), channels.len()) {
-        return Err(at.error(None, problem));
+        return Err(at.channel(None, problem));
     }
     let mut time: Option<Vec<f64>> = None;
     let unit = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].unit.as_str();
@@ -190,7 +190,7 @@ fn locate(
     if let Some(wanted) = wanted.filter(|wanted| !sets.iter().any(|set| is_called(set, wanted))) {
         let names: Vec<String> = sets.iter().take(12).map(|set| format!("\"{}\"", set.name)).collect();
         return Err(
-            at.error(Some(&table.name), format!("the file has no set \"{wanted}\"; it has {}", names.join(", ")))
+            at.channel(Some(&table.name), format!("the file has no set \"{wanted}\"; it has {}", names.join(", ")))
         );
     }
     let places = sets.iter().enumerate().flat_map(|(s, set)| {
@@ -204,14 +204,14 @@ fn locate(
             let inside = |set: &'_ Set| set.channels.iter().filter(|c| is_in(set, c, wanted)).map(|c| format!("\"{}\"", c.name)).collect();
             let names: Vec<String> = sets.iter().flat_map(|set| -> Vec<String> { inside(set) }).take(12).collect();
             let has = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            Err(at.error(Some(&table.name), format!("the file has no channel of that name; it has {has}")))
+            Err(at.channel(Some(&table.name), format!("the file has no channel of that name; it has {has}")))
         }
         [first, second, ..] if first.0 == second.0 => {
-            Err(at.error(Some(&table.name), "two channels of the set have that name; rename one in the measuring system, the files cannot be told apart"))
+            Err(at.channel(Some(&table.name), "two channels of the set have that name; rename one in the measuring system, the files cannot be told apart"))
         }
         _ => {
             let names: Vec<String> = places.iter().take(6).map(|&(s, _)| format!("\"{}\"", sets[s].name)).collect();
-            Err(at.error(Some(&table.name), format!("{} sets have that channel; name one by `set`: {}", places.len(), names.join(", "))))
+            Err(at.channel(Some(&table.name), format!("{} sets have that channel; name one by `set`: {}", places.len(), names.join(", "))))
         }
     }
 }
@@ -228,11 +228,11 @@ pub(super) fn target(
         return base_channel(&label, structure).ok_or_else(|| {
             let problem =
                 format!("the base of this structure does not move along \"{label}\"; write x, y or z of its DOFs");
-            at.error(Some(&table.name), problem)
+            at.channel(Some(&table.name), problem)
         });
     }
     let Some(dof) = structure.dof(&label) else {
-        return Err(at.error(
+        return Err(at.channel(
             Some(&table.name),
             format!(
                 "the structure has no DOF \"{label}\", it has {}; correct `dof` of its [[channel]]",
@@ -261,7 +261,7 @@ fn unit_suits(
     }
     let kind = if rotation { "rotation" } else { "translation" };
     let node = &structure.nodes()[structure.dofs()[dof].node].label;
-    Err(at.error(
+    Err(at.channel(
         Some(&table.name),
         format!("DOF {} is a {kind} of node {node} and is not measured in {name}; correct `unit` or `dof`", table.dof),
     ))

@@ -1,9 +1,9 @@
 //! Samples and times of the channels of a mapping.
 
-use super::fault::{At, data};
 use super::table::ChannelTable;
 use super::units::LabUnit;
 use crate::exchange::records::RecordFileError;
+use crate::exchange::records::error::At;
 use dashpot_datafiles::{Axis, Contents, DataFile, Defect, Kind, Note, Set, Values};
 
 /// Largest difference of the times of two channels of a run, in steps.
@@ -25,10 +25,10 @@ pub(super) fn samples(
     for set in 0..file.contents().sets.len() {
         let (of_set, channels): (Vec<usize>, Vec<usize>) =
             places.iter().enumerate().filter(|(_, place)| place.0 == set).map(|(i, place)| (i, place.1)).unzip();
-        let read = file.read_several(set, &channels).map_err(|error| data(at, error))?;
+        let read = file.read_several(set, &channels).map_err(|error| at.data(error))?;
         for (i, values) in of_set.into_iter().zip(read) {
             let Values::Real(mut values) = values else {
-                return Err(at.error(Some(&tables[i].name), "is complex, and a run needs samples over time"));
+                return Err(at.channel(Some(&tables[i].name), "is complex, and a run needs samples over time"));
             };
             if let Some(row) = mark_of_missing(&values) {
                 let mark = values[row];
@@ -36,7 +36,7 @@ pub(super) fn samples(
                     "sample {} is {mark}, which marks a value that is missing: all others are smaller by far",
                     row + 1
                 );
-                return Err(at.error(Some(&tables[i].name), format!("{problem}; remove the row or mend the number")));
+                return Err(at.channel(Some(&tables[i].name), format!("{problem}; remove the row or mend the number")));
             }
             values.iter_mut().for_each(|value| *value *= factors[i]);
             found[i] = values;
@@ -70,10 +70,10 @@ fn factor(
     if matches!(kind, Kind::Frf | Kind::Spectrum | Kind::Shape | Kind::Geometry | Kind::Matrix) || entry.complex {
         let problem =
             format!("is of kind {}, and a run needs samples over time; choose a channel that has them", kind.word());
-        return Err(at.error(Some(&table.name), problem));
+        return Err(at.channel(Some(&table.name), problem));
     }
     if entry.count == 0 {
-        return Err(at.error(Some(&table.name), "has 0 samples; export the record again or leave the channel out"));
+        return Err(at.channel(Some(&table.name), "has 0 samples; export the record again or leave the channel out"));
     }
     factor_to_si(&entry.unit, table, at)
 }
@@ -91,10 +91,10 @@ pub(super) fn factor_to_si(own: &str, table: &ChannelTable, at: &At<'_>) -> Resu
                 "\"{named}\" is no known unit; add `unit` to its [[channel]] ({known}), with `factor` for units a number"
             )
         };
-        return Err(at.error(Some(&table.name), problem));
+        return Err(at.channel(Some(&table.name), problem));
     };
     if !unit.measures(quantity) {
-        return Err(at.error(
+        return Err(at.channel(
             Some(&table.name),
             format!("{named} is not a unit of {}; correct `quantity` or `unit` ({known})", quantity.word()),
         ));
@@ -112,7 +112,7 @@ pub(super) fn times(
     at: &At<'_>,
 ) -> Result<Vec<f64>, RecordFileError> {
     let entry = &file.contents().sets[set].channels[channel];
-    let axis = file.axis(set, channel).map_err(|error| data(at, error))?;
+    let axis = file.axis(set, channel).map_err(|error| at.data(error))?;
     let unit = file.contents().sets[set].axis_unit.trim().to_lowercase();
     let scale = match unit.as_str() {
         "" | "s" | "sec" | "secs" | "second" | "seconds" => 1.0,
@@ -123,17 +123,17 @@ pub(super) fn times(
         "h" => 3600.0,
         other => {
             return Err(
-                at.error(Some(&table.name), format!("its abscissa is in \"{other}\", and a run needs time in s"))
+                at.channel(Some(&table.name), format!("its abscissa is in \"{other}\", and a run needs time in s"))
             );
         }
     };
     match (axis, sampling_hz) {
         (None, None) => {
             if let Some(back) = time_goes_back(&file.contents().sets[set]) {
-                return Err(at.error(None, back));
+                return Err(at.channel(None, back));
             }
             let problem = "the file does not say the time between samples; add `sampling_hz` to its [[run]]";
-            Err(at.error(Some(&table.name), problem))
+            Err(at.channel(Some(&table.name), problem))
         }
         (None, Some(rate)) => Ok((0..entry.count).map(|i| i as f64 / rate).collect()),
         (Some(mut axis), rate) => {
@@ -141,7 +141,7 @@ pub(super) fn times(
                 && (rate * step * scale - 1.0).abs() > SAME_RATE
             {
                 let found = 1.0 / (step * scale);
-                return Err(at.error(
+                return Err(at.channel(
                     Some(&table.name),
                     format!("the file is sampled at {found} Hz and `sampling_hz` says {rate}; leave it out"),
                 ));
@@ -184,7 +184,7 @@ pub(super) fn whole(file: &DataFile, places: &[(usize, usize)], at: &At<'_>) -> 
     let count = |&(set, channel): &(usize, usize)| file.contents().sets[set].channels[channel].count;
     let uneven = places.windows(2).any(|pair| count(&pair[0]) != count(&pair[1]));
     match places.first().and_then(|&(set, _)| cut_off(file.contents(), set)).filter(|_| uneven) {
-        Some(cut) => Err(at.error(None, cut)),
+        Some(cut) => Err(at.channel(None, cut)),
         None => Ok(()),
     }
 }
@@ -204,7 +204,7 @@ pub(super) fn same_time(
             a.name,
             first.len()
         );
-        return Err(at.error(Some(&b.name), problem));
+        return Err(at.channel(Some(&b.name), problem));
     }
     let step = if first.len() > 1 { (first[first.len() - 1] - first[0]) / (first.len() - 1) as f64 } else { 0.0 };
     // Written so that NaN is a difference.
@@ -219,7 +219,7 @@ pub(super) fn same_time(
                 a.name,
                 first[i]
             );
-            Err(at.error(Some(&b.name), problem))
+            Err(at.channel(Some(&b.name), problem))
         }
     }
 }

@@ -9,7 +9,6 @@ pub struct ChannelTable {
     /// Name of the channel in the file.
     pub name: String,
     /// Name of the set in the file, where several have that channel.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
     /// What it measures.
     #[serde(serialize_with = "word")]
@@ -18,16 +17,12 @@ pub struct ChannelTable {
     #[serde(serialize_with = "label")]
     pub dof: String,
     /// Unit of its numbers, where the file says none or a wrong one.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// -1 where it is positive against the direction of its DOF.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub sign: Option<i64>,
     /// Calibration: units a number of the file.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
     /// How late it is recorded, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub delay: Option<f64>,
     /// Whether files without it are read all the same: a hammer or sensor that moves from run to run.
     #[serde(skip_serializing_if = "std::ops::Not::not")]

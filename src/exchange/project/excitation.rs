@@ -13,10 +13,8 @@ const LONGEST: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExcitationTable {
     /// DOF of the force; of a release, the one whose displacement is given. A base has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub dof: Option<Label>,
     /// Of a moving base: the record with its acceleration.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Length of the record, s.
     pub duration_s: f64,

@@ -1,4 +1,5 @@
-//! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`].
+//! The project file as plain data, one field a key, as it is written; where each part stood is in [`Lines`]. TOML has no null: keys whose
+//! field is `None` are not written.
 
 use super::correction::CorrectionTable;
 use super::excitation::ExcitationTable;
@@ -126,22 +127,16 @@ pub struct MatricesTable {
     /// Stiffness matrix.
     pub stiffness: String,
     /// Table of nodes.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes: Option<String>,
     /// Table of DOFs.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub dofs: Option<String>,
     /// Table of lines.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lines: Option<String>,
     /// Name of the mass matrix in a file of several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_name: Option<String>,
     /// Name of the stiffness matrix in a file of several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_name: Option<String>,
     /// Table `[structure.reduce]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reduce: Option<ReduceTable>,
 }
 
@@ -151,7 +146,6 @@ pub struct PointsTable {
     /// Labels.
     pub dofs: Vec<Label>,
     /// Positions, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub positions: Option<Vec<[f64; 3]>>,
 }
 
@@ -164,7 +158,6 @@ pub struct SourceTable {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub dofs: Vec<Label>,
     /// First and last beam element, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<[i64; 2]>,
     /// What identification may do with it.
     pub state: State,
@@ -192,10 +185,8 @@ pub struct SensorTable {
     /// Channel, such as `acc@7`.
     pub channel: String,
     /// How late it is recorded, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub delay: Option<f64>,
     /// How many times too large it reads.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gain: Option<f64>,
 }
 
@@ -213,43 +204,32 @@ pub struct RunTable {
     /// Record, relative to the project.
     pub file: String,
     /// Frequency, Hz; estimated where it is left out.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
     /// Kind of the run.
     #[serde(skip_serializing_if = "Kind::is_steady")]
     pub kind: Kind,
     /// First instant of the part that is used, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub start_s: Option<f64>,
     /// Last instant of the part that is used, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub end_s: Option<f64>,
     /// Time constant of an exponential window over the motion, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub exponential_window_s: Option<f64>,
     /// Label of the force level.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<i64>,
     /// Name of the session it was measured in.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub session: Option<String>,
     /// Key `use`: `false` leaves the run out, `true` takes it even where it is flagged.
-    #[serde(rename = "use", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "use")]
     pub enabled: Option<bool>,
     /// DOF of the force in a recipe.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub force_dof: Option<Label>,
     /// Amplitude of the force in a recipe, N.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
     /// Share by which all natural frequencies are higher in this run of a recipe.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_shift: Option<f64>,
     /// What is done to the structure in a recipe of a test that is not steady.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub excitation: Option<ExcitationTable>,
     /// Set of a laboratory file, where it has several with the channels of the mapping.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
     /// Sets of a laboratory file in which every data set is one channel: one a `[[channel]]`, in their order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -258,16 +238,12 @@ pub struct RunTable {
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub dofs: BTreeMap<String, Label>,
     /// Sampling rate of a laboratory file without time, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub sampling_hz: Option<f64>,
     /// Direction in which the base moves in a recipe: `x`, `y` or `z`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,
     /// Amplitude of the base's acceleration in a recipe, m/s^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub base_m_s2: Option<f64>,
     /// Whether the motions of the record are absolute or relative to the base; as `[base]` says unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub response: Option<BaseResponse>,
 }
 
@@ -295,25 +271,20 @@ pub struct HarmonicsTable {
     /// File of fitted coefficients, relative to the project.
     pub file: String,
     /// Channel of the column `force` of a stepped-sine table, with its unit, such as `force@1 [N]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<String>,
     /// Channel of its columns `amplitude` and `phase_deg`, such as `acc@7 [g]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub response: Option<String>,
     /// Quantity whose phases a stepped-sine table gives (`disp`, `vel`, `acc`), where it is not that of the channel.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
+    #[serde(serialize_with = "word")]
     pub phase_of: Option<Quantity>,
     /// Label of the force level of all its runs that name none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<i64>,
     /// Name of the session of all its runs that name none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub session: Option<String>,
     /// Key `use`, as at `[[run]]`.
-    #[serde(rename = "use", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "use")]
     pub enabled: Option<bool>,
     /// Sheet, group or block of the file that is the table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
     /// `[harmonics.phases]`: the column of the phase of each `[[channel]]` of a table in a laboratory file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -339,10 +310,8 @@ pub struct SimulateTable {
     #[serde(default)]
     pub integrate: bool,
     /// Samples a second of tests that are not steady, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
     /// Bits of the converter; exact without.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub bits: Option<u32>,
     /// Whether signals are filtered against aliasing before they are sampled.
     #[serde(skip_serializing_if = "Clone::clone")]

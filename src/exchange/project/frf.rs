@@ -44,22 +44,17 @@ pub struct FrfTable {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
     /// What the functions relate; from their units where it is left out.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
     /// Factor from the file's numbers to SI, or on top of its units.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
     /// Number of averages.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub averages: Option<usize>,
     /// Whether responses and references are exchanged.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub reciprocity: bool,
     /// Band, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<[f64; 2]>,
     /// Most lines that become runs.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lines: Option<usize>,
     /// Key `use`.
     #[serde(rename = "use", skip_serializing_if = "Clone::clone")]
@@ -71,10 +66,9 @@ pub struct FrfTable {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub references: Vec<Label>,
     /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub step_hz: Option<f64>,
     /// How the columns are parts of complex numbers two by two, where their names do not say it.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
+    #[serde(serialize_with = "word")]
     pub columns: Option<Pairing>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]

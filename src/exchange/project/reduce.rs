@@ -15,10 +15,8 @@ pub struct ReduceTable {
     /// Fixed-interface modes are kept up to this frequency, Hz.
     pub up_to_hz: f64,
     /// The error is told up to this frequency, Hz; half of `up_to_hz` unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub band_hz: Option<f64>,
     /// Largest relative error of a frequency in the band, 0.001 unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// DOFs that are kept beside those that the project names.
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -17,10 +17,8 @@ pub struct RuledOutTable {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub dofs: Vec<Label>,
     /// First and last beam element, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<[i64; 2]>,
     /// Channel, such as `acc@7`, of an error of the measuring chain.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
 }
 

@@ -140,9 +140,9 @@ pub enum RecordProblem {
 
 /// Makes errors of one file.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct At<'a> {
+pub(crate) struct At<'a> {
     /// Name of the file for messages.
-    pub(super) file: &'a str,
+    pub(crate) file: &'a str,
 }
 
 impl At<'_> {
@@ -159,5 +159,18 @@ impl At<'_> {
     /// A cell is at fault.
     pub(super) fn cell(self, line: u64, column: &str, problem: RecordProblem) -> RecordFileError {
         RecordFileError { file: self.file.to_owned(), line: Some(line), column: Some(column.to_owned()), problem }
+    }
+
+    /// A channel of a laboratory file is at fault, or the file where none is named.
+    pub(crate) fn channel(self, name: Option<&str>, problem: impl Into<String>) -> RecordFileError {
+        let column = name.map(|name| format!("channel \"{name}\""));
+        let problem = RecordProblem::DataFile { problem: problem.into() };
+        RecordFileError { file: self.file.to_owned(), line: None, column, problem }
+    }
+
+    /// A laboratory file cannot be read.
+    pub(crate) fn data(self, error: dashpot_datafiles::Error) -> RecordFileError {
+        let problem = RecordProblem::DataFile { problem: error.problem };
+        RecordFileError { file: self.file.to_owned(), line: None, column: error.place, problem }
     }
 }

@@ -36,15 +36,11 @@ pub fn read_record_with(path: &Path, structure: &Structure, control: &Control) -
     let name = path.display().to_string();
     let bytes = std::fs::read(path)
         .map_err(|error| At { file: &name }.file(RecordProblem::Unreadable { reason: error.to_string() }))?;
-    parse_record_with(&bytes, &name, structure, control)
+    parse_record(&bytes, &name, structure, control)
 }
 
-/// Reads a record from the bytes of a file called `name` in messages.
-pub fn parse_record(bytes: &[u8], name: &str, structure: &Structure) -> Result<Record, RecordFileError> {
-    parse_record_with(bytes, name, structure, &Control::unattended())
-}
-
-fn parse_record_with(
+/// Reads a record from the bytes of a file called `name` in messages, as [`read_record_with`] does.
+pub fn parse_record(
     bytes: &[u8],
     name: &str,
     structure: &Structure,

@@ -22,7 +22,6 @@ use super::settings::Settings;
 use super::solve::assemble;
 use super::stability::is_stable;
 use crate::control::Control;
-use faer::c64;
 use std::f64::consts::TAU;
 
 /// How a sweep goes.
@@ -251,7 +250,8 @@ impl Tracer<'_> {
 }
 
 /// All periodic responses at the excitation's frequency that lie on the curve through `range` (rad/s), each with its
-/// stability by Floquet's multipliers, in order along the curve.
+/// stability by Floquet's multipliers, in order along the curve. For callers of the library, and a second route to those of
+/// [`RunModel::branches`], which follows the level of the force.
 pub fn branches(
     model: &ForwardModel,
     excitation: &Excitation,
@@ -277,12 +277,4 @@ pub fn branches(
         found.push(SweepPoint { response, stable });
     }
     Ok(found)
-}
-
-/// Index of the response nearest to measured complex displacement amplitudes (DOF, harmonic, m).
-pub fn nearest(points: &[SweepPoint], measured: &[(usize, usize, c64)]) -> Option<usize> {
-    let distance = |point: &SweepPoint| -> f64 {
-        measured.iter().map(|&(dof, h, y)| (point.response.amplitude(dof, h) - y).norm_sqr()).sum()
-    };
-    (0..points.len()).min_by(|&a, &b| distance(&points[a]).total_cmp(&distance(&points[b])))
 }

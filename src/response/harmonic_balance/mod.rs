@@ -43,7 +43,7 @@ pub(crate) use newton::Balance;
 pub(crate) use prepared::Prepared;
 pub(crate) use solve::richardson;
 
-pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, nearest, sweep};
+pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, sweep};
 pub use error::{ModelError, ResponseError};
 pub use excitation::{Excitation, HarmonicForce};
 pub use model::{ForwardModel, RunModel};

@@ -26,14 +26,9 @@ pub struct BaseMotion<'a> {
     pub is_absolute: bool,
 }
 
-/// Acceleration (m/s^2), velocity (m/s) and displacement (m) of the base at every fine step.
-pub(super) struct AtSteps {
-    pub motion: [Vec<f64>; 3],
-}
-
 impl BaseMotion<'_> {
-    /// At `count` steps of `step` s.
-    pub(super) fn at_steps(&self, count: usize, step: f64) -> AtSteps {
+    /// Its acceleration (m/s^2), velocity (m/s) and displacement (m) at `count` steps of `step` s.
+    pub(super) fn at_steps(&self, count: usize, step: f64) -> [Vec<f64>; 3] {
         let acceleration_at_step = |n: usize| {
             let place = n as f64 * step / self.step_s;
             let (k, share) = (place.floor() as usize, place.fract());
@@ -46,12 +41,11 @@ impl BaseMotion<'_> {
             v[n] = v[n - 1] + 0.5 * step * (a[n - 1] + a[n]);
             d[n] = d[n - 1] + step * v[n - 1] + step * step * (2.0 * a[n - 1] + a[n]) / 6.0;
         }
-        AtSteps { motion: [a, v, d] }
+        [a, v, d]
     }
 
     /// What it adds to a channel of motion; nothing to one that does not ride on it.
-    pub(super) fn added<'s>(&self, steps: &'s AtSteps, channel: &Channel) -> Option<&'s [f64]> {
-        let [a, v, d] = &steps.motion;
+    pub(super) fn added<'s>(&self, [a, v, d]: &'s [Vec<f64>; 3], channel: &Channel) -> Option<&'s [f64]> {
         let rides = self.is_absolute && self.along.contains(&channel.dof);
         match channel.quantity {
             Quantity::Base => (channel == self.channel).then_some(&a[..]),
@@ -83,7 +77,7 @@ mod tests {
             step_s,
             is_absolute: true,
         };
-        let [a, v, d] = base.at_steps(10_000, 1.3e-4).motion;
+        let [a, v, d] = base.at_steps(10_000, 1.3e-4);
         for n in [1_usize, 777, 5000, 9999] {
             let t = 1.3e-4 * n as f64;
             assert!((a[n] - (omega * t).sin()).abs() < 1e-5);

@@ -102,7 +102,7 @@ fn recorded(
     let mut model = match &ridden {
         Some((base, steps)) => {
             let loads: Vec<(usize, f64)> = base.loads.iter().map(|(dof, load)| (*dof, -load)).collect();
-            TimeModel::under_loads(structure, sources, Some((&loads, &steps.motion[0])), fine)?
+            TimeModel::under_loads(structure, sources, Some((&loads, &steps[0])), fine)?
         }
         None => TimeModel::under_force(structure, sources, force.as_deref().map(|f| (setup.dof, f)), fine)?,
     };

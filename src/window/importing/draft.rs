@@ -254,7 +254,7 @@ fn rows(proposal: Proposal) -> Vec<ChannelRow> {
             delay: None,
             optional: false,
         },
-        note: why.clone(),
+        note: why.to_string(),
     }));
     rows
 }
