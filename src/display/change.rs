@@ -15,7 +15,7 @@ pub(crate) fn sentence(structure: &Structure, found: &Change) -> String {
     };
     let changed: Vec<String> = found.changed().map(source_in_words).collect();
     let together = found.chance.map_or_else(String::new, |p| {
-        format!(" All differences together have a probability of chance of {}.", chance(p))
+        format!(" Probability that noise alone makes all these differences: {}.", chance(p))
     });
     match changed.len() {
         0 if found.sources.is_empty() => "No source was identified in either state.".to_owned(),

@@ -36,6 +36,14 @@ pub fn with_deviation(value: f64, deviation: f64, unit: &str) -> String {
     format!("{numbers} {}", pretty_unit(&unit)).trim_end().to_owned()
 }
 
+/// Significant digits of a value in a column of its own that the deviation beside it supports: two to four.
+pub fn supported(value: f64, deviation: f64) -> usize {
+    if deviation <= 0.0 || value == 0.0 || !deviation.is_finite() {
+        return 4;
+    }
+    (value.abs().log10().floor() - deviation.log10().floor() + 2.0).clamp(2.0, 4.0) as usize
+}
+
 /// A difference with its deviation and its sign: `+0.20 ± 0.04 %`; what is rounded to nothing has none.
 pub fn signed(value: f64, deviation: f64, unit: &str) -> String {
     let text = with_deviation(value, deviation, unit);
@@ -110,7 +118,9 @@ pub fn polished(sentence: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{chance, editable, percent, polished, prefixed, pretty_unit, significant, with_deviation, with_unit};
+    use super::{
+        chance, editable, percent, polished, prefixed, pretty_unit, significant, supported, with_deviation, with_unit,
+    };
 
     #[test]
     fn numbers_have_real_signs() {
@@ -149,6 +159,14 @@ mod tests {
         assert_eq!(prefixed(2.11e11, "Pa"), "211 GPa");
         assert_eq!(percent(0.000_02), "<0.01 %");
         assert_eq!(percent(0.4567), "45.7 %");
+    }
+
+    #[test]
+    fn a_value_beside_its_deviation_has_the_digits_that_it_supports() {
+        assert_eq!(supported(4.927_91, 0.000_14), 4);
+        assert_eq!(supported(4.927_91, 0.14), 3);
+        assert_eq!(supported(4.927_91, 7.0), 2);
+        assert_eq!(supported(0.02, 0.0), 4);
     }
 
     #[test]

@@ -16,10 +16,10 @@ const WIDE: f64 = 2.0;
 
 /// Slopes of `ln zeta` over `ln A` of laws, as guides: dry friction, viscous damping, microslip (between these two: `chi + 1`), drag.
 const SLOPES: [(f64, &str); 4] =
-    [(-1.0, "dry friction, slope -1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
+    [(-1.0, "dry friction, slope −1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
 /// The same of `ln Q`, which falls where the damping ratio rises.
 const SLOPES_OF_QUALITY: [(f64, &str); 4] =
-    [(1.0, "dry friction, slope 1"), (0.0, "viscous, 0"), (-0.5, "microslip, -1/2"), (-1.0, "drag, -1")];
+    [(1.0, "dry friction, slope 1"), (0.0, "viscous, 0"), (-0.5, "microslip, −1/2"), (-1.0, "drag, −1")];
 
 /// The modes of a record whose curves say something.
 pub(crate) fn told(curves: &[ModeCurve]) -> Vec<&ModeCurve> {
@@ -60,8 +60,12 @@ pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figur
     figure.margin = 0.04;
     if wide && ratio {
         let slopes = if measure == Damping::Quality { SLOPES_OF_QUALITY } else { SLOPES };
-        for (slope, law) in slopes {
-            figure = figure.points(law, palette.weak, Look::Dashed(1.0), guide(&points(&curve.measured), slope));
+        // Each is told from the others in black and white too.
+        let [ink, weak] = [palette.ink, palette.weak];
+        let looks =
+            [(ink, Look::Dashed(1.2)), (weak, Look::Line(1.0)), (weak, Look::Dashed(1.2)), (ink, Look::Line(1.0))];
+        for ((slope, law), (colour, look)) in slopes.into_iter().zip(looks) {
+            figure = figure.points(law, colour, look, guide(&points(&curve.measured), slope));
         }
     }
     figure

@@ -34,6 +34,11 @@ const LABEL: f32 = 30.0;
 /// Room for the scale of colours at the right, and its least height with the unit above.
 const SCALE: f32 = 66.0;
 const LEAST_SCALE: f32 = 58.0;
+/// Largest side of a cell: a matrix of two rows fills no whole screen.
+const LARGEST: f32 = 128.0;
+/// What the labels are, in the corner, and its room.
+const CORNER: &str = "DOF";
+const BESIDE: f32 = 36.0;
 /// Width of a letter of a label.
 const LETTER: f32 = 6.4;
 
@@ -77,13 +82,13 @@ impl HeatMap<'_> {
 
     /// Room for the labels at the left.
     fn left(&self) -> f32 {
-        (LETTER * self.longest() + 12.0).max(LABEL)
+        (LETTER * self.longest() + 12.0).max(BESIDE)
     }
 
     /// Side of a cell that fits into `room`.
     fn cell(&self, room: Rect) -> f32 {
         let [across, down] = [self.columns, self.rows].map(|list| list.len().max(1) as f32);
-        ((room.width() - self.left() - SCALE) / across).min((room.height() - LABEL - 10.0) / down).clamp(2.0, 92.0)
+        ((room.width() - self.left() - SCALE) / across).min((room.height() - LABEL - 10.0) / down).clamp(2.0, LARGEST)
     }
 
     /// Draws it into `room`; gives back where its cells stand.
@@ -126,6 +131,10 @@ impl HeatMap<'_> {
     /// Labels of columns above and of rows at the left, one in `every`.
     fn labels(&self, drawing: &mut Drawing, cells: Cells, every: usize, palette: &Palette) {
         let middle = |k: usize| (k as f32 + 0.5) * cells.cell;
+        // Wide labels over narrow cells reach into the corner.
+        if LETTER * self.longest() <= cells.cell + 12.0 {
+            drawing.words(cells.origin - Vec2::splat(8.0), Align2::RIGHT_BOTTOM, CORNER, size::SMALL, palette.weak);
+        }
         let mut write = |at: Pos2, align: Align2, label: usize| {
             drawing.words(at, align, self.labels[label].clone(), size::SMALL, palette.weak);
         };

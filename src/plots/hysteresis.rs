@@ -1,8 +1,9 @@
 //! Loops of force over displacement: of the exciter, measured and of the model, and of each source.
 
+use super::cycle::scaled;
 use super::figure::{Axis, Figure, Look};
 use crate::display::{format, words};
-use crate::effects::{Motion, Source};
+use crate::effects::{Motion, Place, Source};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
 use faer::c64;
@@ -20,6 +21,8 @@ pub struct Loop {
     pub model: Vec<[f64; 2]>,
     /// Points of the measured loop, where both force and motion are measured there.
     pub measured: Vec<[f64; 2]>,
+    /// Whether it is a moment, N·m, over a rotation, rad.
+    pub rotation: bool,
 }
 
 /// Loops of one run: the exciter's and one a source, for the model's amplitudes `x` of displacement (m) at the fundamental.
@@ -40,6 +43,7 @@ pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Ve
             name: format!("Exciter at DOF {}", force.channel.label),
             model: x.get(dof).map_or_else(Vec::new, |&x| ellipse(x, f)),
             measured: measured.unwrap_or_default(),
+            rotation: p.structure.dofs()[dof].direction.is_rotation(),
         });
     }
     for source in acting {
@@ -52,10 +56,17 @@ pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Ve
             let mut model: Vec<[f64; 2]> = points.collect();
             model.extend(model.first().copied());
             let place = words::place(&p.structure, &source.place);
-            loops.push(Loop { name: format!("{} {place}", words::effect(source.effect)), model, measured: Vec::new() });
+            let rotation = matches!(&source.place, Place::Dofs(dofs) if is_rotation(p, dofs));
+            let name = format!("{} {place}", words::effect(source.effect));
+            loops.push(Loop { name, model, measured: Vec::new(), rotation });
         }
     }
     loops
+}
+
+/// Whether a source turns what it acts on.
+fn is_rotation(p: &Project, dofs: &[usize]) -> bool {
+    dofs.iter().any(|&d| p.structure.dofs().get(d).is_some_and(|d| d.direction.is_rotation()))
 }
 
 /// The loop of two harmonic quantities over one period.
@@ -91,9 +102,17 @@ impl Loop {
     /// As a plot.
     pub fn figure(&self, palette: &crate::plots::style::Palette) -> Figure {
         let title = format!("{}: area {}", self.name, self.energies());
-        let mut figure = Figure::new(&title, Axis::new("Displacement", "m"), Axis::new("Force", "N"))
-            .points("measured", palette.measured, Look::Line(2.4), self.measured.clone())
-            .points("model", palette.model, Look::Line(1.6), self.model.clone());
+        let most = |k: usize| self.model.iter().chain(&self.measured).map(|p| p[k].abs()).fold(0.0, f64::max);
+        let [(a, x), (b, y)] =
+            [(Quantity::Displacement, most(0)), (Quantity::Force, most(1))].map(|(quantity, most)| {
+                let (factor, prefix) = scaled(most);
+                let plain = Axis::of(words::axis(quantity, self.rotation));
+                (factor, Axis::new(&plain.name, &format!("{prefix}{}", plain.unit)))
+            });
+        let points = |list: &[[f64; 2]]| list.iter().map(|p| [a * p[0], b * p[1]]).collect();
+        let mut figure = Figure::new(&title, x, y)
+            .points("measured", palette.measured, Look::Line(2.4), points(&self.measured))
+            .points("model", palette.model, Look::Line(1.6), points(&self.model));
         figure.margin = 0.08;
         figure
     }

@@ -11,6 +11,8 @@ use faer::c64;
 
 /// Logarithm of a frequency ratio beyond which neighbours are not joined by a line: another resonance.
 const APART: f64 = 0.25;
+/// Highest over lowest frequency from which on the axis is logarithmic, so that the lower resonances are as broad as the higher.
+const WIDE: f64 = 8.0;
 /// Free room at the sides of the first and the last run, as a share of the width.
 const MARGIN: f32 = 0.04;
 /// Most levels that stand in the row of keys; beyond, the lowest and the highest.
@@ -64,9 +66,16 @@ pub(crate) fn figures(p: &Project, channel: &Channel, run: usize, palette: &Pale
     let per = per_force(channel.quantity.si_unit(rotation));
     let y = [Axis::log("Magnitude", &per).ticks(Ticks::OneTwoFive), Axis::new("Phase", "°").ticks(Ticks::RightAngles)];
     let parts: [(&str, fn(c64) -> f64); 2] = [("Magnitude", |z| z.norm()), ("Phase", phase)];
+    let frequencies = groups.iter().flat_map(|g| &g.points).map(|(_, f, _)| *f);
+    let [low, high] = frequencies.fold([f64::INFINITY, 0.0_f64], |[a, b], f| [a.min(f), b.max(f)]);
+    let x = if high > WIDE * low {
+        Axis::log("Frequency", "Hz").ticks(Ticks::OneTwoFive)
+    } else {
+        Axis::new("Frequency", "Hz")
+    };
     let figure = |(y, (name, of)): (Axis, (&str, fn(c64) -> f64))| {
         let title = format!("{name} of {channel} over the force, all runs");
-        let figure = Figure::new(&title, Axis::new("Frequency", "Hz"), y);
+        let figure = Figure::new(&title, x.clone(), y);
         curves(figure, &groups, run, palette, of)
     };
     y.into_iter().zip(parts).map(figure).zip([0.6, 0.4]).collect()

@@ -64,7 +64,7 @@ impl RecordResidual {
             .with("measured", palette.measured, Look::Line(1.2), measured)
             .with("model", palette.model, Look::Line(1.2), model);
         let y = Axis { name: "Residual".to_owned(), ..self.axis.clone() };
-        vec![both, Figure::new("What is left", x(), y).with("left", palette.missing, Look::Line(1.2), left)]
+        vec![both, Figure::new("What is left", x(), y).with("residual", palette.missing, Look::Line(1.2), left)]
     }
 
     /// Amplitude spectra of what was measured, of the model's record and of what is left; `None` of a record that is too short.
@@ -73,7 +73,7 @@ impl RecordResidual {
         Some(
             Figure::new("Spectra", Axis::new("Frequency", "Hz"), Axis::log("Amplitude", &self.axis.unit).peak())
                 // What is left of noise is the noise that was measured: it must not hide it.
-                .with("left", palette.missing, Look::Line(1.2), left)
+                .with("residual", palette.missing, Look::Line(1.2), left)
                 .with("measured", palette.measured, Look::Line(1.2), measured)
                 .with("model", palette.model, Look::Line(1.2), model),
         )

@@ -44,9 +44,13 @@ pub(crate) fn caption(force: &RestoringForce) -> String {
     format!("points: one period, {count}, ± {}; {law}", format::prefixed(deviation, "N"))
 }
 
-/// Name of a level in the key.
+/// Name of a level in the key; parts of records are called by the second that they begin at.
 fn name(run: &RunForce) -> String {
-    if run.level_name.parse::<i64>().is_ok() { format!("level {}", run.level_name) } else { run.level_name.clone() }
+    match run.level_name.strip_suffix(" s") {
+        _ if run.level_name.parse::<i64>().is_ok() => format!("level {}", run.level_name),
+        Some(start) if start.parse::<f64>().is_ok() => format!("from {start} s"),
+        _ => run.level_name.clone(),
+    }
 }
 
 /// Colours of the runs: those of their levels, or of data and missing effect where there is one level only.

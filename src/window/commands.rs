@@ -121,7 +121,7 @@ pub const TABLE: [Entry; 34] = [
     entry(Command::Explain, "Explain", "Where the model fails, and what it lacks.", ctrl(Key::Num6)),
     entry(Command::StepBack, "Step back", "Looks at the set with one source less.", plain(Key::ArrowLeft)),
     entry(Command::StepOn, "Step", "Looks at the set with one source more.", plain(Key::ArrowRight)),
-    entry(Command::StepEnd, "To the best", "Looks at the accepted set again.", plain(Key::End)),
+    entry(Command::StepEnd, "To the best set", "Looks at the accepted set again.", plain(Key::End)),
     entry(Command::PreviousRun, "Previous run", "Selects the run above.", plain(Key::ArrowUp)),
     entry(Command::NextRun, "Next run", "Selects the run below.", plain(Key::ArrowDown)),
     entry(Command::ResetLayout, "Reset layout", "Puts the panes of this stage back to where they were at first.", None),

@@ -113,7 +113,8 @@ impl Derived {
             return Arc::clone(scene);
         }
         let p = &document.project;
-        let scene = Arc::new(Scene::new(&p.structure, &p.sources, &p.runs));
+        let scene = Scene::new(&p.structure, &p.sources, &p.runs).with_records(&p.transient_runs);
+        let scene = Arc::new(scene);
         self.scene = Some((document.revision(), Arc::clone(&scene)));
         scene
     }

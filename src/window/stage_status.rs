@@ -18,14 +18,14 @@ impl App {
         match stage {
             Stage::Measure if p.runs.is_empty() && !p.transient_runs.is_empty() => {
                 let used = p.transient_runs.iter().filter(|r| r.enabled).count();
-                StageStatus::done(&format!("{} not steady: decays, transients.", words::counted(used, "record")))
+                StageStatus::done(&format!("{} over time.", words::counted(used, "record")))
             }
             Stage::Measure if p.runs.is_empty() => StageStatus::empty("No runs: import measurements."),
             Stage::Measure => {
                 let flagged = p.runs.iter().filter(|r| r.enabled && !r.findings.is_empty()).count();
                 let used = p.runs.iter().filter(|r| r.enabled).count();
                 if flagged > 0 {
-                    StageStatus::attention(&format!("{flagged} of {used} used runs are flagged."))
+                    StageStatus::attention(&format!("Flagged: {flagged} of {used} used runs."))
                 } else {
                     StageStatus::done(&format!("{used} runs are used, none is flagged."))
                 }

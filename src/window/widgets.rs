@@ -51,6 +51,27 @@ pub(crate) fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, left: P
     width
 }
 
+/// A name in `room` points: where it is wider, dots stand for what is in its middle, for names of one series differ at their ends.
+pub(crate) fn shortened(ui: &Ui, name: &str, font: FontId, room: f32) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    let kept = |n: usize| {
+        let head: String = letters[..n / 3].iter().collect();
+        let tail: String = letters[letters.len() - (n - n / 3)..].iter().collect();
+        format!("{head}…{tail}")
+    };
+    let fits =
+        |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x <= room;
+    if fits(name) {
+        return name.to_owned();
+    }
+    let [mut least, mut most] = [0, letters.len()];
+    while most - least > 1 {
+        let n = usize::midpoint(least, most);
+        if fits(&kept(n)) { least = n } else { most = n }
+    }
+    kept(least)
+}
+
 /// Words of one colour in at most `rows` lines of `room` points; dots where they are longer still.
 pub(crate) fn folded(ui: &Ui, text: &str, font: FontId, colour: Color32, room: f32, rows: usize) -> Arc<Galley> {
     let mut job = LayoutJob::simple(tr(text), font, colour, room.max(8.0));

@@ -209,7 +209,7 @@ fn what_was_identified_is_taken_over_into_the_model() {
     let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Explain;
     settle(&mut harness);
-    press(&mut harness, "Take over what was identified");
+    press(&mut harness, "Add the identified sources");
     let [after, floor] = error(&harness);
     assert!(after < 3.0 * floor, "error {after}, noise floor {floor}");
 }

@@ -52,7 +52,7 @@ fn from_the_start_screen_to_exported_matrices() {
     let accepted = accepted.unwrap().accepted;
     click(&mut harness, "Step back");
     assert_eq!(harness.state().view.step, Some(accepted - 1));
-    click(&mut harness, "To the best");
+    click(&mut harness, "To the best set");
     assert_eq!(harness.state().view.step, None);
     // What was identified is read.
     tab(&mut harness, "Result");

@@ -153,7 +153,7 @@ fn the_button_takes_over_what_the_command_line_does() {
     let mut harness = open(&sample, Theme::Light);
     tab(&mut harness, "Explain");
     assert!(error(&harness) > 10.0, "nothing damps the model yet");
-    press(&mut harness, "Take over what was identified");
+    press(&mut harness, "Add the identified sources");
     let here = error(&harness);
     assert!((here / there - 1.0).abs() < 1e-6, "{here} in the window, {there} on the command line");
 }

@@ -13,6 +13,7 @@ mod drive;
 mod events;
 mod explain;
 mod export;
+mod extremes;
 mod first_hour;
 mod friction;
 mod full_disk;

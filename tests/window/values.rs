@@ -73,9 +73,11 @@ fn check(sample: &Sample) {
     }
     look(&mut harness, Stage::Result, Pane::Damping);
     for mode in json["modes"].as_array().unwrap() {
-        let (ratio, deviation) = (number(&mode["damping_ratio"]), number(&mode["standard_deviation"]));
-        let line = format::with_deviation(100.0 * ratio, 100.0 * deviation, "%");
-        assert!(said(&harness, &line) > 0, "{line}");
+        let [ratio, deviation] = ["damping_ratio", "standard_deviation"].map(|key| 100.0 * number(&mode[key]));
+        for (value, digits) in [(ratio, format::supported(ratio, deviation)), (deviation, 2)] {
+            let line = format!("{} %", format::significant(value, digits));
+            assert!(said(&harness, &line) > 0, "{line}");
+        }
         let hertz = format::with_unit(number(&mode["frequency_hz"]), "Hz");
         assert!(said(&harness, &hertz) > 0, "{hertz}");
     }

@@ -156,7 +156,7 @@ pub const TERMS: &[Term] = &[
         "Error of the model for every run (columns) and channel (rows); dark is worse, white is within the noise.",
     ),
     term(
-        "Measured on modelled",
+        "Measured and modelled",
         &[],
         "The cell of the error map that is selected: measured points on the model's curve, along frequency, level, time or as a loop.",
     ),
@@ -168,7 +168,7 @@ pub const TERMS: &[Term] = &[
     term("Corrections", &[], "What else of the model, the channels and the runs the data correct, with deviations."),
     term(
         "Ledger",
-        &["The way"],
+        &["Changes so far"],
         "Every model that was looked at with its error; a click goes back to it, none is lost.",
     ),
     // Measure.
@@ -176,7 +176,7 @@ pub const TERMS: &[Term] = &[
     term("File", &[], "File of the record, beside the project."),
     term("Frequency", &[], "Frequency of the run at which its harmonics are fitted, or natural frequency of a mode."),
     term(
-        "Fit at",
+        "Fit frequency",
         &[],
         "Frequency at which the harmonics are fitted, as stated in the project or estimated from the record.",
     ),
@@ -204,7 +204,7 @@ pub const TERMS: &[Term] = &[
     term("Period", &[], "Duration of one cycle of the excitation."),
     term("Periods", &[], "Number of cycles in the record; some ten make the noise small."),
     term("Duration", &[], "Length of the record."),
-    term("Samples a channel", &[], "Number of samples of each channel of the record."),
+    term("Samples per channel", &[], "Number of samples of each channel of the record."),
     term("Amplitude", &[], "Peak value of a harmonic, not root mean square."),
     term(
         "Phase",
@@ -219,7 +219,7 @@ pub const TERMS: &[Term] = &[
     ),
     term("Nearest run", &[], "The run whose frequency is nearest to that of the mode."),
     term(
-        "Run is",
+        "Run − mode",
         &[],
         "Difference between the frequency of the nearest run and that of the mode, relative to the mode's.",
     ),
@@ -263,9 +263,9 @@ pub const TERMS: &[Term] = &[
     ),
     // Analysis.
     term("Harmonics fitted", &[], "Number of harmonics that are fitted to every channel of every run."),
-    term("Most sources", &[], "Largest number of sources that the selection tries."),
-    term("Columns kept, 0: all", &[], "How many of the sets of one size go on to the next step; 0 tries all."),
-    term("Stops below", &[], "Angle below which the selection takes the energies for explained and stops."),
+    term("Sources at most", &[], "Largest number of sources that the selection tries."),
+    term("Sets kept (0: all)", &[], "How many of the sets of one size go on to the next step; 0 tries all."),
+    term("Stop angle", &[], "Angle below which the selection takes the energies for explained and stops."),
     term("Weights", &[], "How much each run counts: by its energy, by its noise, or all the same."),
     // Sources.
     term(
@@ -367,11 +367,11 @@ pub const TERMS: &[Term] = &[
     term("Sense", &[], "+ along the direction of the degree of freedom, − against it."),
     term("Unit", &[], "Unit of the numbers; in an import where the file says none or a wrong one."),
     term("Factor", &[], "Calibration: units a number of the file."),
-    term("Late, ms", &["Delay"], "How late the channel is recorded."),
+    term("Delay, ms", &["Delay"], "How late the channel is recorded."),
     term(
         "Averages",
         &[],
         "Number of averages of a frequency response; with the coherence they give the deviation of every value.",
     ),
-    term("Place in the file", &[], "Node and direction as the measuring system names them."),
+    term("Point in the file", &[], "Node and direction as the measuring system names them."),
 ];

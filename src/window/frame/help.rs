@@ -104,7 +104,7 @@ pub(crate) const TOUR: [TourStep; 10] = [
         stage: Stage::Select,
         pane: Some(Pane::Steps),
         title: "6 of 10: step by step",
-        text: "One row a number of sources: the best set, its coefficients with deviations, the angle between measured and \
+        text: "One row per number of sources: the best set, its coefficients with deviations, the angle between measured and \
          identified energies. The arrow keys step.",
     },
     TourStep {
@@ -132,8 +132,9 @@ pub(crate) const TOUR: [TourStep; 10] = [
         stage: Stage::Result,
         pane: None,
         title: "10 of 10: make it yours",
-        text: "Panes can be dragged by their titles, split and closed; View > Reset layout puts them back. File > New makes a \
-         project of your own, and records are dropped on the window. F1 lists the keys.",
+        text: "The stage Explain compares model and measurement, says which effect the model lacks and shows how far the error \
+         falls with it. File > New makes a project of your own, and records are dropped on the window. Panes can be moved by \
+         their titles; View > Reset layout puts them back. F1 lists the keys.",
     },
 ];
 

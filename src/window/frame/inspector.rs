@@ -71,15 +71,15 @@ fn analysis(ui: &mut Ui, s: &Settings, asks: &mut Vec<Ask>) {
     ui.title("Analysis", "");
     let counts: [(&str, usize, fn(usize) -> Setting); 3] = [
         ("Harmonics fitted", s.harmonics, Setting::Harmonics),
-        ("Most sources", s.max_sources, Setting::MaxSources),
-        ("Columns kept, 0: all", s.keep, Setting::Keep),
+        ("Sources at most", s.max_sources, Setting::MaxSources),
+        ("Sets kept (0: all)", s.keep, Setting::Keep),
     ];
     for (name, value, setting) in counts {
         if let Some(new) = ui.quantity(name, value as f64, "") {
             set(asks, Command::SetSetting(setting(new.round().max(0.0) as usize)));
         }
     }
-    if let Some(new) = ui.quantity("Stops below", s.stop_angle_deg, "°") {
+    if let Some(new) = ui.quantity("Stop angle", s.stop_angle_deg, "°") {
         set(asks, Command::SetSetting(Setting::StopAngleDeg(new)));
     }
     let expansions = [Expansion::Auto, Expansion::None, Expansion::SingleMode, Expansion::Modes, Expansion::Dynamic];
@@ -107,7 +107,7 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     ui.pair("Period", format::prefixed(r.fit.period(), "s"));
     ui.pair("Noise over signal", words::noise(r));
     if let Some(record) = &r.record {
-        ui.pair("Samples a channel", record.time().len().to_string());
+        ui.pair("Samples per channel", record.time().len().to_string());
         let span = record.time().last().unwrap_or(&0.0) - record.time().first().unwrap_or(&0.0);
         ui.pair("Duration", format::prefixed(span, "s"));
         ui.pair("Periods", format::significant(span / r.fit.period(), 3));
@@ -128,7 +128,7 @@ fn run(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
 fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
     let hertz = r.fit.omega / std::f64::consts::TAU;
     let file = || r.file.clone();
-    if let Some(new) = ui.quantity("Fit at", hertz, "Hz") {
+    if let Some(new) = ui.quantity("Fit frequency", hertz, "Hz") {
         set(asks, Command::SetRunFrequency { file: file(), frequency: (new > 0.0).then_some(new) });
     }
     if let Some(new) = ui.quantity("Force level", r.level.unwrap_or(0) as f64, "") {
@@ -149,7 +149,9 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
 /// Known errors of the channels of a DOF.
 fn sensors(ui: &mut Ui, p: &Project, file: &ProjectFile, dof: usize, asks: &mut Vec<Ask>) {
     let mut names: Vec<String> = Vec::new();
-    for channel in p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel).filter(|c| c.dof == dof) {
+    let steady = p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
+    let over_time = p.transient_runs.iter().flat_map(|r| r.channels());
+    for channel in steady.chain(over_time).filter(|c| c.dof == dof) {
         let name = channel.to_string();
         if !names.contains(&name) {
             names.push(name);

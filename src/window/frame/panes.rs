@@ -108,7 +108,7 @@ impl Pane {
             Self::Methods => "Methods",
             Self::Incompleteness => "Incompleteness",
             Self::ErrorMap => "Error map",
-            Self::Cell => "Measured on modelled",
+            Self::Cell => "Measured and modelled",
             Self::Missing => "What is missing?",
             Self::Ledger => "Ledger",
             Self::Corrections => "Corrections",

@@ -8,9 +8,9 @@ use crate::window::ask::Ask;
 use crate::window::commands::Command;
 use crate::window::language::tr;
 use crate::window::opened::Opened;
-use crate::window::schematic::Scene;
 use crate::window::schematic::hit::Target;
-use crate::window::schematic::view::View;
+use crate::window::schematic::view::{SEPARATOR, View};
+use crate::window::schematic::{Layout, Scene};
 use crate::window::stages::{explain, select};
 use crate::window::view::{Stage, View as LookedAt};
 use egui::Ui;
@@ -39,7 +39,15 @@ pub(crate) fn show(ui: &mut Ui, opened: &mut Opened<'_>, asks: &mut Vec<Ask>) {
     }
     let (moved, caption) = moved(ui, opened, &scene);
     let of_errors = errors.is_some();
+    let colours = match &shares {
+        Some(_) if !of_errors => Some("shaded: share of the energy"),
+        None if moved.is_some() && Layout::turns(&scene) => Some("shaded: displacement"),
+        _ => None,
+    };
+    let base = (scene.on_moving_base && opened.view.stage != Stage::Pattern).then_some("driven at its base");
     let caption = errors.unwrap_or(caption);
+    let caption = [Some(caption.as_str()), base, colours];
+    let caption = caption.into_iter().flatten().filter(|s| !s.is_empty()).collect::<Vec<_>>().join(SEPARATOR);
     let shape = moved.as_ref().map(|m| m.at(opened.view.phase));
     let largest = moved.map_or(0.0, |m| m.largest);
     let slot = |index: usize| scene.sources.iter().position(|s| s.index == index).map(Target::Source);
@@ -89,7 +97,7 @@ fn moved(ui: &Ui, opened: &mut Opened<'_>, scene: &Scene) -> (Option<Moved>, Str
     let document = opened.document;
     match opened.view.stage {
         Stage::Pattern => {
-            let verb = "Click a DOF: source to ground  ·  drag to another DOF: between them  ·  sweep: chain  ·  click again: state";
+            let verb = "Click a DOF: source to ground  ·  drag to another DOF: between the two  ·  drag a box: chain  ·  click a source twice: its state";
             (None, verb.to_owned())
         }
         _ if !opened.view.shape => (None, String::new()),

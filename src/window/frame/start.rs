@@ -10,9 +10,9 @@ use crate::window::widgets::UiExt;
 use egui::{CentralPanel, Frame, Margin, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 
-/// Cards in a row.
-const IN_A_ROW: usize = 4;
-/// Room between cards, points.
+/// Largest width of all, least width of a card, and room between cards, points.
+const WIDEST: f32 = 1400.0;
+const CARD: f32 = 264.0;
 const GAP: f32 = 14.0;
 
 /// Where samples are looked for: beside the program, at and above the working directory, and where a package puts them.
@@ -50,7 +50,7 @@ pub(crate) fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
     let palette = Palette::of(ui.visuals());
     let desk = Frame::new().fill(palette.desk).inner_margin(Margin::same(space::XL as i8));
     CentralPanel::default().frame(desk).show(ui, |ui| {
-        let width = ui.available_width().min(1120.0);
+        let width = ui.available_width().min(WIDEST);
         let margin = 0.5 * (ui.available_width() - width);
         ui.horizontal_top(|ui| {
             ui.add_space(margin);
@@ -58,8 +58,8 @@ pub(crate) fn show(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
                 ui.set_width(width);
                 heading(ui, asks);
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    samples(ui, width, asks);
                     files(ui, recent, asks);
+                    samples(ui, width, asks);
                 });
             });
         });
@@ -102,7 +102,8 @@ fn heading(ui: &mut Ui, asks: &mut Vec<Ask>) {
 
 fn samples(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
     let folder = samples_folder();
-    let card_width = (width - (IN_A_ROW - 1) as f32 * GAP) / IN_A_ROW as f32;
+    let columns = ((width + GAP) / (CARD + GAP)).floor().max(1.0);
+    let card_width = (width - (columns - 1.0) * GAP) / columns;
     let groups: [(&str, &[Sample]); 3] = [
         ("Where is the energy lost?", &cards::DAMPERS),
         ("What does the model lack?", &cards::HIDDEN),
@@ -111,7 +112,7 @@ fn samples(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
     for (title, samples) in groups {
         ui.title(title, "");
         ui.add_space(space::XS);
-        for row in samples.chunks(IN_A_ROW) {
+        for row in samples.chunks(columns as usize) {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = GAP;
                 for sample in row {
@@ -131,16 +132,16 @@ fn samples(ui: &mut Ui, width: f32, asks: &mut Vec<Ask>) {
     }
 }
 
-/// The files opened last.
+/// The files opened last: who comes back looks for them first.
 fn files(ui: &mut Ui, recent: &[PathBuf], asks: &mut Vec<Ask>) {
     if recent.is_empty() {
         return;
     }
-    ui.add_space(space::S);
     ui.title("Opened last", "");
     for path in recent.iter().take(5) {
         if ui.link(path.display().to_string()).clicked() {
             asks.push(Ask::Open(path.clone()));
         }
     }
+    ui.add_space(space::L);
 }

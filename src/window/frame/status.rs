@@ -94,6 +94,10 @@ fn summary(ui: &mut Ui, app: &App) {
         let used = p.transient_runs.iter().filter(|r| r.enabled).count();
         parts.push(format!("{used} of {} records over time", p.transient_runs.len()));
     }
-    parts.push(format!("{}, {} DOFs", words::kind(p.structure.kind()), p.structure.len()));
+    let kind = words::kind(p.structure.kind());
+    parts.push(match p.structure.len() {
+        1 => format!("{kind}, 1 DOF"),
+        count => format!("{kind}, {count} DOFs"),
+    });
     ui.hint(parts.join("   ·   "));
 }

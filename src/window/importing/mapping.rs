@@ -17,7 +17,7 @@ const QUANTITIES: [(Quantity, &str); 5] = [
     (Quantity::Base, "base motion"),
 ];
 /// Columns; the first says whether the channel is imported.
-const COLUMNS: [&str; 8] = ["Use", "Channel", "Quantity", "DOF", "Sense", "Unit", "Factor", "Late, ms"];
+const COLUMNS: [&str; 8] = ["Use", "Channel", "Quantity", "DOF", "Sense", "Unit", "Factor", "Delay, ms"];
 
 /// Shows the table.
 pub(super) fn show(ui: &mut Ui, rows: &mut [ChannelRow], unit_of: impl Fn(&str) -> String) {

@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, responses: &mut Responses) {
         .column(Column::exact(110.0))
         .column(Column::exact(60.0))
         .header(space::ROW, |mut header| {
-            for name in ["Place in the file", "DOF", "Sense"] {
+            for name in ["Point in the file", "DOF", "Sense"] {
                 header.col(|ui| drop(ui.hint(name)));
             }
         })

@@ -101,7 +101,7 @@ fn decisions(ui: &mut Ui, draft: &mut Draft) {
             mapping::show(ui, rows, unit_of);
         }
         Decided::Responses(responses) => {
-            ui.title("Where the frequency responses are", &format!("{} functions", responses.count));
+            ui.title("Points of the frequency responses", &format!("{} functions", responses.count));
             places::show(ui, responses);
         }
         Decided::Stepped(words, assumed) => {

@@ -87,7 +87,7 @@ pub(super) fn energy(portrait: &Portrait, palette: &Palette) -> Result<(Figure, 
     };
     let power = (b[1] / a[1]).ln() / (b[0] / a[0]).ln();
     let words = format!("grows with the amplitude to the power {}", format::significant(power, 3));
-    let figure = Figure::new("Energy a cycle", x, Axis::log("Energy", "J"));
+    let figure = Figure::new("Energy per cycle", x, Axis::log("Energy", "J"));
     Ok((figure.points("", palette.model, Look::Line(1.9), points), words))
 }
 

@@ -135,7 +135,7 @@ fn cells(portrait: &Portrait, lesson: &Lesson, palette: &Palette) -> [Cell; 6] {
             remark: at.clone(),
             figures: Ok(alone(figures::loops("Hysteresis of the law", &portrait.own, palette))),
         },
-        Cell { title: "Energy a cycle", remark: power, figures: energy.map(|e| alone(e.0)) },
+        Cell { title: "Energy per cycle", remark: power, figures: energy.map(|e| alone(e.0)) },
     ]
 }
 

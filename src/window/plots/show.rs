@@ -256,7 +256,7 @@ impl Place<'_> {
 }
 
 /// Names of axes and how they are cut short where a plot is low.
-const SHORT: [(&str, &str); 11] = [
+const SHORT: [(&str, &str); 12] = [
     ("Acceleration", "Acc."),
     ("Amplitude", "Ampl."),
     ("Damping ratio", "Damping"),
@@ -264,6 +264,7 @@ const SHORT: [(&str, &str); 11] = [
     ("Frequency", "Freq."),
     ("Imaginary part", "Imag."),
     ("Magnitude", "Mag."),
+    ("Phase", "φ"),
     ("Real part", "Real"),
     ("Residual", "Res."),
     ("Rotation", "Rot."),

@@ -1,7 +1,7 @@
 //! What there is to draw, as plain data: no positions on the screen, no colours, no physics.
 
 use crate::effects::{Effect, Place, Source, State};
-use crate::measurement::{Quantity, Run};
+use crate::measurement::{Channel, Quantity, Run, TransientRun};
 use crate::structure::{Direction, Structure, StructureKind};
 use faer::MatRef;
 
@@ -81,6 +81,8 @@ pub struct Scene {
     pub sources: Vec<SceneSource>,
     /// Springs of a chain.
     pub springs: Vec<Spring>,
+    /// Whether its base moves in any run, whose motion was measured.
+    pub on_moving_base: bool,
 }
 
 impl Scene {
@@ -93,6 +95,7 @@ impl Scene {
             dofs: dofs(structure),
             sources: Vec::new(),
             springs: springs(structure),
+            on_moving_base: false,
         };
         scene.set_runs(runs);
         scene.set_sources(sources);
@@ -100,7 +103,33 @@ impl Scene {
     }
 
     fn set_runs(&mut self, runs: &[Run]) {
-        for channel in runs.iter().flat_map(|run| &run.fit.channels).map(|fit| &fit.channel) {
+        for run in runs {
+            let recorded = run.record.as_ref().map_or(&[][..], |record| record.channels());
+            let on_base = recorded.iter().any(|c| c.quantity == Quantity::Base);
+            self.on_moving_base |= on_base;
+            // What the base does to each mass is a force of the fit, but none of an exciter.
+            let acts = |c: &&Channel| !on_base || c.quantity != Quantity::Force || recorded.contains(c);
+            self.set_channels(run.fit.channels.iter().map(|fit| &fit.channel).filter(acts));
+        }
+    }
+
+    /// With the sensors and exciters of records over time, which are no runs: decays, hammers, sweeps, noise. Nothing acts on a decay,
+    /// and the forces of a moving base are none of an exciter.
+    #[must_use]
+    pub fn with_records(mut self, records: &[TransientRun]) -> Self {
+        for record in records {
+            let mut numbers = record.response_channels();
+            self.on_moving_base |= record.on_moving_base;
+            if !record.on_moving_base {
+                numbers.extend(record.force_channels());
+            }
+            self.set_channels(numbers.into_iter().map(|c| &record.channels()[c]));
+        }
+        self
+    }
+
+    fn set_channels<'a>(&mut self, channels: impl Iterator<Item = &'a Channel>) {
+        for channel in channels {
             let Some(dof) = self.dofs.get_mut(channel.dof) else { continue };
             if channel.quantity == Quantity::Force {
                 dof.exciter = true;

@@ -6,7 +6,7 @@ use super::model::{Scene, Support};
 use super::symbols;
 use crate::effects::{Effect, State};
 use crate::window::theme::{self, Palette};
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
 
 /// What is to stand out.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,7 +34,7 @@ pub(crate) fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout:
     if marks.in_space {
         at_rest(painter, palette, layout);
     } else {
-        halos(painter, palette, layout, marks);
+        halos(painter, palette, scene, layout, marks);
         structure(painter, palette, scene, layout);
     }
     for source in &layout.sources {
@@ -62,15 +62,29 @@ pub(crate) fn paint(painter: &Painter, palette: &Palette, scene: &Scene, layout:
 
 /// Share below which nothing is drawn.
 const FAINT: f32 = 0.001;
+/// How far a share of one reaches beyond a node, and beyond a mass, whose neighbours are near, points.
+const DISC: f32 = 14.0;
+const RIM: f32 = 8.0;
+/// Distance of the sign of a moving base from its support, and half its height, points.
+const BESIDE_WALL: f32 = 26.0;
+const HALF_ARROW: f32 = 24.0;
 
-fn halos(painter: &Painter, palette: &Palette, layout: &Layout, marks: &Marks<'_>) {
+/// Ground of a DOF whose share is not nothing: about a node a disc, about a mass a rim, which its springs pass through.
+fn halos(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layout, marks: &Marks<'_>) {
     let Some(shares) = marks.shares else { return };
+    let strong = if marks.errors { palette.missing } else { palette.model };
     for handle in &layout.handles {
         let share = shares.get(handle.dof).copied().unwrap_or(0.0);
-        if share > FAINT {
-            let radius = handle.radius + 4.0 + 14.0 * share.sqrt();
-            let colour = if marks.errors { palette.missing } else { palette.model };
-            painter.circle_filled(handle.pos, radius, colour.gamma_multiply(0.16 + 0.3 * share));
+        if share <= FAINT {
+            continue;
+        }
+        let colour = strong.gamma_multiply(0.16 + 0.3 * share);
+        let about = if scene_mass(scene, handle).is_some() { RIM } else { DISC };
+        let radius = handle.radius + 4.0 + about * share.sqrt();
+        if scene_mass(scene, handle) == Some(false) {
+            painter.rect_filled(Rect::from_center_size(handle.pos, Vec2::splat(2.0 * radius)), 7.0, colour);
+        } else {
+            painter.circle_filled(handle.pos, radius, colour);
         }
     }
 }
@@ -91,6 +105,9 @@ fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
         paint_part(painter, palette, Effect::SPRING, spring, theme::pen(palette.ink), false);
     }
     for support in &layout.supports {
+        if scene.on_moving_base {
+            moving(painter, palette, support.pos + support.into * BESIDE_WALL);
+        }
         match support.support {
             Support::Clamped => {
                 let wall = Stroke::new(2.4, palette.ink);
@@ -103,6 +120,13 @@ fn structure(painter: &Painter, palette: &Palette, scene: &Scene, layout: &Layou
                 symbols::ground(painter, foot, support.into, 30.0, theme::pen(palette.ink));
             }
         }
+    }
+}
+
+/// The sign of a base that moves up and down.
+fn moving(painter: &Painter, palette: &Palette, middle: Pos2) {
+    for tip in [-HALF_ARROW, HALF_ARROW] {
+        symbols::arrow(painter, [middle, middle + vec2(0.0, tip)], Stroke::new(2.2, palette.accent));
     }
 }
 

@@ -92,7 +92,7 @@ impl View<'_> {
         let painter = ui.painter_at(area);
         painter.rect_filled(area, 6.0, palette.canvas);
         if let Some(space) = layout.space.as_ref().filter(|_| marks.in_space) {
-            let wire = Wire { scene: self.scene, space, shares: self.shares };
+            let wire = Wire { scene: self.scene, space, shares: self.shares, errors: self.errors };
             wire.paint(&painter, palette, canvas.id.with("wire"), area);
         }
         paint::paint(&painter, palette, self.scene, &layout, &marks);
@@ -207,7 +207,7 @@ impl View<'_> {
     /// The node of a wire model that is nearest to the eye under the pointer.
     fn node_at(&self, layout: &Layout, at: Pos2) -> Option<usize> {
         let space = layout.space.as_ref()?;
-        let wire = Wire { scene: self.scene, space, shares: self.shares };
+        let wire = Wire { scene: self.scene, space, shares: self.shares, errors: self.errors };
         wire.pick(&space.projection.ray(at, wire.reach()), NODE_REACH)
     }
 

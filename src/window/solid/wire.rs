@@ -20,6 +20,8 @@ pub(crate) struct Wire<'a> {
     pub space: &'a Space,
     /// Share of each DOF, 0 to 1; its colours go before those of the motion.
     pub shares: Option<&'a [f32]>,
+    /// Whether the shares are those of the model's error.
+    pub errors: bool,
 }
 
 impl Wire<'_> {
@@ -47,8 +49,9 @@ impl Wire<'_> {
     /// Tubes and balls.
     pub(crate) fn mesh(&self, palette: &Palette) -> Mesh {
         let shares = self.node_shares();
+        let strong = if self.errors { palette.missing } else { palette.model };
         let colour = |n: usize| match &shares {
-            Some(shares) => palette.weak.lerp_to_gamma(palette.model, shares[n].powf(0.7)),
+            Some(shares) => palette.weak.lerp_to_gamma(strong, shares[n].powf(0.7)),
             None => palette.ink.lerp_to_gamma(palette.weak, 0.35),
         };
         let radius = self.thickness() / self.space.projection.scale;
@@ -97,7 +100,7 @@ impl Wire<'_> {
 
     fn key(&self, ink: Color32) -> u64 {
         let mut hasher = DefaultHasher::new();
-        ink.hash(&mut hasher);
+        (ink, self.errors).hash(&mut hasher);
         self.scene.lines.hash(&mut hasher);
         let numbers = self.space.nodes.iter().flat_map(|n: &Vector3<f32>| [n.x, n.y, n.z]);
         let shares = self.shares.into_iter().flatten().copied();
@@ -120,7 +123,7 @@ mod tests {
         let scene = Scene::new(&samples::points(), &[], &[]);
         let layout = Layout::new(&scene, AREA, Camera::default(), None);
         let space = layout.space.as_ref().unwrap();
-        let wire = Wire { scene: &scene, space, shares: None };
+        let wire = Wire { scene: &scene, space, shares: None, errors: false };
         for n in 0..4 {
             let at = space.projection.at(space.nodes[n]);
             assert_eq!(wire.pick(&space.projection.ray(at, 10.0), 0.0), Some(n));
@@ -137,11 +140,12 @@ mod tests {
         let shape = [0.0, 1.0, -0.5, 0.25];
         let layout = Layout::new(&scene, AREA, Camera::default(), Some(&shape));
         let space = layout.space.as_ref().unwrap();
-        let moved = Wire { scene: &scene, space, shares: None }.node_shares().unwrap();
+        let moved = Wire { scene: &scene, space, shares: None, errors: false }.node_shares().unwrap();
         for (m, s) in moved.iter().zip(shape) {
             assert!((m - s.abs() as f32).abs() < 1e-4, "{moved:?}");
         }
-        let energy = Wire { scene: &scene, space, shares: Some(&[0.1, 0.2, 0.4, 0.0]) }.node_shares().unwrap();
+        let energy =
+            Wire { scene: &scene, space, shares: Some(&[0.1, 0.2, 0.4, 0.0]), errors: false }.node_shares().unwrap();
         assert_eq!(energy, [0.25, 0.5, 1.0, 0.0]);
     }
 }

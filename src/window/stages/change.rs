@@ -52,7 +52,9 @@ fn choices(ui: &mut Ui, names: &[String], against: &mut Option<Against>, asks: &
             *against = Some(Against::Sessions([pair[0].clone(), pair[1].clone()]));
         }
     }
-    if against.is_some() && ui.button(t!("End")).on_hover_text(t!("Compares with nothing any more.")).clicked() {
+    if against.is_some()
+        && ui.button(t!("End comparison")).on_hover_text(t!("Compares with nothing any more.")).clicked()
+    {
         *against = None;
     }
 }

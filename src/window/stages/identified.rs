@@ -38,7 +38,7 @@ pub(super) fn outcome(ui: &mut Ui, derived: &mut Derived, document: &Document) -
 pub(super) fn outcome_quietly(ui: &mut Ui, derived: &mut Derived, document: &Document) -> Option<Arc<Outcome>> {
     let found = derived.outcome(ui.ctx(), document).and_then(Result::ok);
     if found.is_none() {
-        ui.empty("Nothing yet", "It follows what is identified.");
+        ui.empty("Nothing yet", "Shown once sources are identified.");
     }
     found
 }

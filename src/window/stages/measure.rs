@@ -1,6 +1,6 @@
 //! Measure: the runs with what is wrong with them, the record with its fit, the spectrum.
 
-use super::run_table::{Key, Order, common_folder};
+use super::run_table::{Key, Order, common_folder, file_name};
 use super::unsteady::{self, FOLLOWS};
 use crate::display::{format, words};
 use crate::exchange::Project;
@@ -326,7 +326,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, 
             asks.push(Ask::Edit(Edit::UseRun(run.file.clone(), used)));
         }
     });
-    row.col(|ui| drop(ui.label(run.file.get(folder..).unwrap_or(&run.file)).on_hover_text(&run.file)));
+    row.col(|ui| file_name(ui, &run.file, folder));
     row.col(|ui| drop(ui.number(format::with_unit(run.fit.omega / std::f64::consts::TAU, "Hz"))));
     row.col(|ui| drop(ui.number(run.level.map_or_else(String::new, |level| level.to_string()))));
     row.col(|ui| {

@@ -97,7 +97,7 @@ fn whole_rows(heights: impl Iterator<Item = f32>, room: f32) -> f32 {
 fn families(ui: &mut Ui, law: Effect, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let weak = ui.palette().weak;
-        ui.label(RichText::new(t!("Add at")).color(weak));
+        ui.label(RichText::new(t!("Add candidates at")).color(weak));
         if matches!(law.kind(), Kind::Whole(_)) {
             if ui.button(t!("Whole structure")).clicked() {
                 asks.push(Ask::Edit(Edit::DrawWhole(law)));

@@ -20,6 +20,9 @@ use std::sync::Arc;
 
 /// Width of the column of shares in the table of values, points.
 const SHARE: f32 = 64.0;
+/// Largest width of bars and coefficients, and width of the column of deviations, points.
+const WIDEST: f32 = 900.0;
+const DEVIATION: f32 = 78.0;
 
 /// The answer, or what is shown in its place.
 fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Outcome>> {
@@ -118,6 +121,8 @@ fn quantities(ui: &mut Ui, chosen: &mut Quantity) {
 fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
     let palette = ui.palette();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // On a wide screen figures stay near their names.
+        ui.set_max_width(ui.available_width().min(WIDEST));
         ui.title("By source", "share of the energy over all used runs");
         let bar = |estimate: &crate::identify::Estimate| {
             let source = p.sources.get(estimate.source)?;
@@ -128,7 +133,10 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
                 colour: if known { palette.weak } else { palette.model },
             })
         };
-        bars::show(ui, "Energy by source", &outcome.sources.iter().filter_map(bar).collect::<Vec<_>>(), 190.0);
+        let mut largest_first: Vec<&crate::identify::Estimate> = outcome.sources.iter().collect();
+        largest_first.sort_by(|a, b| b.energy_percent.total_cmp(&a.energy_percent));
+        let by_source: Vec<Bar> = largest_first.iter().filter_map(|e| bar(e)).collect();
+        bars::show(ui, "Energy by source", &by_source, 190.0);
         let by_dof: Vec<Bar> = outcome
             .results
             .energy_percent
@@ -148,14 +156,14 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
         }
         ui.add_space(space::M);
         ui.title("Coefficients", "with one standard deviation");
-        for estimate in &outcome.sources {
+        for estimate in largest_first {
             let Some(source) = p.sources.get(estimate.source) else { continue };
             let place = words::place(&p.structure, &source.place);
             ui.pair(&format!("{} {place}", words::effect(source.effect)), words::coefficient(source, estimate));
         }
         for warning in &outcome.warnings {
             ui.add_space(space::XS);
-            ui.colored_label(palette.warning, warning);
+            ui.colored_label(palette.warning, tr(warning));
         }
     });
 }
@@ -168,22 +176,19 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
     ui.style_mut().interaction.selectable_labels = false;
     let measure = units::now().damping;
     let [name_of_measure, unit] = measure.words();
-    let ratio = |mode: &crate::identify::results::ModeResult| {
-        let [value, deviation] = measure.of(mode.damping_ratio, mode.damping_ratio_deviation);
-        format::with_deviation(value, deviation, unit)
-    };
-    let widest = widest(ui, outcome.results.modes.iter().map(ratio));
+    let said = |value: f64, digits| format!("{} {unit}", format::significant(value, digits)).trim_end().to_owned();
     TableBuilder::new(ui)
         .id_salt("damping")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
         .column(Column::exact(44.0))
         .column(Column::exact(86.0))
-        .column(Column::exact(widest.max(116.0)))
-        .column(Column::remainder().at_least(80.0))
+        .column(Column::exact(112.0))
+        .column(Column::exact(DEVIATION))
+        .column(Column::remainder().at_least(80.0).at_most(160.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
-            for name in ["Frequency", name_of_measure, "Half-power"] {
+            for name in ["Frequency", name_of_measure, "Deviation", "Half-power"] {
                 row.col(|ui| drop(identified::head_right(ui, name)));
             }
         })
@@ -193,11 +198,11 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
                 let mode = &outcome.results.modes[r];
                 row.col(|ui| drop(ui.label(format!("{}", r + 1))));
                 row.col(|ui| drop(ui.number(format::with_unit(mode.frequency_hz, "Hz"))));
-                row.col(|ui| drop(ui.number(ratio(mode))));
-                row.col(|ui| {
-                    let said = |ratio: f64| format!("{} {unit}", format::significant(measure.of(ratio, 0.0)[0], 3));
-                    ui.number(mode.half_power_ratio.map_or_else(|| "–".to_owned(), said));
-                });
+                let [value, deviation] = measure.of(mode.damping_ratio, mode.damping_ratio_deviation);
+                row.col(|ui| drop(ui.number(said(value, format::supported(value, deviation)))));
+                row.col(|ui| drop(ui.number(if deviation > 0.0 { said(deviation, 2) } else { "–".to_owned() })));
+                let half_power = mode.half_power_ratio.map(|ratio| said(measure.of(ratio, 0.0)[0], 3));
+                row.col(|ui| drop(ui.number(half_power.unwrap_or_else(|| "–".to_owned()))));
             });
         });
 }

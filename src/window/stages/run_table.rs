@@ -4,8 +4,8 @@ use crate::display::{glossary, words};
 use crate::exchange::Project;
 use crate::measurement::Run;
 use crate::window::language::{t, tf, tr};
-use crate::window::theme::space;
-use crate::window::widgets::{UiExt, explained};
+use crate::window::theme::{self, space};
+use crate::window::widgets::{UiExt, explained, shortened};
 use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 /// Runs from which on the table has a filter.
@@ -102,7 +102,7 @@ impl Order {
             .with_layout(layout, |ui| {
                 ui.add_space(if right { space::XS } else { 0.0 });
                 let colour = if self.key == key { ui.palette().accent } else { ui.palette().weak };
-                let text = RichText::new(tr(name)).size(crate::window::theme::size::SMALL).color(colour);
+                let text = RichText::new(tr(name)).size(theme::size::SMALL).color(colour);
                 let response = ui.add(Label::new(text).selectable(false).sense(Sense::click()));
                 if self.key == key {
                     mark(ui, &response, self.falling);
@@ -142,4 +142,11 @@ pub fn common_folder(p: &Project) -> usize {
     let Some(first) = p.runs.first().map(|r| r.file.as_str()) else { return 0 };
     let folder = first.rfind(['/', '\\']).map_or(0, |at| at + 1);
     if p.runs.iter().all(|r| r.file.starts_with(&first[..folder])) { folder } else { 0 }
+}
+
+/// The name of a file without the `folder` that all share, which says nothing of any.
+pub(super) fn file_name(ui: &mut Ui, file: &str, folder: usize) {
+    let name = file.get(folder..).unwrap_or(file);
+    let short = shortened(ui, name, theme::font(theme::size::BODY), ui.available_width());
+    ui.label(short).on_hover_text(file);
 }

@@ -18,7 +18,8 @@ use egui::{Align, Galley, Layout, ScrollArea, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
 
-/// Width of the table of steps from which on it shows chi-square, points.
+/// Widths of the table of steps from which on it shows the energy error, and chi-square too, points.
+const ROOMY: f32 = 345.0;
 const WIDE: f32 = 400.0;
 /// Widths of its columns, points.
 const COUNT: f32 = 56.0;
@@ -110,7 +111,7 @@ fn ending(ui: &mut Ui, outcome: &Outcome, asks: &mut Vec<Ask>) {
 /// How the search ended, in words.
 pub(crate) fn status(status: Status) -> &'static str {
     match status {
-        Status::WithinNoise => "explains the data to the noise",
+        Status::WithinNoise => "data explained within the noise",
         Status::AboveNoise => "does not reach the noise",
         Status::BelowAngle => "below the angle limit",
         Status::AboveAngle => "above the angle limit",
@@ -131,10 +132,16 @@ pub(crate) fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> Str
     laws.iter().map(|(law, places)| format!("{law} {}", places.join(", "))).collect::<Vec<_>>().join("; ")
 }
 
+/// Names and widths of the columns of figures in a table of `width` points; of no width where the sets need the room.
+fn columns(width: f32) -> [(&'static str, f32); 3] {
+    let from = |least: f32, own: f32| if width > least { own } else { 0.0 };
+    [("Angle", ANGLE), ("Energy error", from(ROOMY, ERROR)), (PER_ROW, from(WIDE, CHI_SQUARE))]
+}
+
 fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &mut Option<usize>) {
     ui.style_mut().interaction.selectable_labels = false;
-    let wide = ui.available_width() > WIDE;
-    let fixed = COUNT + ANGLE + ERROR + if wide { CHI_SQUARE } else { 0.0 };
+    let columns = columns(ui.available_width());
+    let fixed = COUNT + columns.iter().map(|(_, width)| width).sum::<f32>();
     let room = ui.available_width() - fixed - 5.0 * ui.spacing().item_spacing.x;
     let lines: Vec<[Arc<Galley>; 2]> = outcome.steps.iter().map(|step| step_words(ui, p, step, room)).collect();
     let heights = lines.iter().map(|[a, b]| space::ROW.max(a.size().y + b.size().y + 8.0)).collect::<Vec<_>>();
@@ -151,15 +158,15 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
         .auto_shrink([false, false])
         .column(Column::exact(COUNT))
         .column(Column::remainder().at_least(60.0).clip(true))
-        .column(Column::exact(ANGLE))
-        .column(Column::exact(ERROR))
-        .column(Column::exact(if wide { CHI_SQUARE } else { 0.0 }))
+        .column(Column::exact(columns[0].1))
+        .column(Column::exact(columns[1].1))
+        .column(Column::exact(columns[2].1))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Sources")));
             row.col(|ui| drop(ui.hint("Which")));
-            for name in ["Angle", "Energy error", PER_ROW] {
+            for (name, width) in columns {
                 row.col(|ui| {
-                    if wide || name != PER_ROW {
+                    if width > 0.0 {
                         identified::head_right(ui, name);
                     }
                 });
@@ -169,7 +176,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
             body.heterogeneous_rows(heights.into_iter(), |mut row| {
                 let k = row.index();
                 row.set_selected(k == current);
-                cells(&mut row, outcome, (k, &lines[k]), wide);
+                cells(&mut row, outcome, (k, &lines[k]), &columns);
                 if row.response().clicked() {
                     *chosen = Some(k);
                 }
@@ -198,7 +205,12 @@ fn step_words(ui: &Ui, p: &Project, step: &SelectionStep, room: f32) -> [Arc<Gal
     ]
 }
 
-fn cells(row: &mut TableRow<'_, '_>, outcome: &Outcome, (k, lines): (usize, &[Arc<Galley>; 2]), wide: bool) {
+fn cells(
+    row: &mut TableRow<'_, '_>,
+    outcome: &Outcome,
+    (k, lines): (usize, &[Arc<Galley>; 2]),
+    columns: &[(&str, f32); 3],
+) {
     let step = &outcome.steps[k];
     row.col(|ui| {
         ui.label(step.count.to_string());
@@ -216,14 +228,16 @@ fn cells(row: &mut TableRow<'_, '_>, outcome: &Outcome, (k, lines): (usize, &[Ar
             }
         });
     });
-    row.col(|ui| drop(ui.number(format!("{}°", format::significant(step.angle_deg, 4)))));
-    row.col(|ui| drop(ui.number(format::percent(step.relative_error))));
     let per_row = step.chi_square / step.freedom.max(1) as f64;
-    row.col(|ui| {
-        if wide {
-            ui.number(format::significant(per_row, 3));
-        }
-    });
+    let angle = format!("{}°", format::significant(step.angle_deg, 4));
+    let figures = [angle, format::percent(step.relative_error), format::significant(per_row, 3)];
+    for (figure, (_, width)) in figures.into_iter().zip(columns) {
+        row.col(|ui| {
+            if *width > 0.0 {
+                ui.number(figure);
+            }
+        });
+    }
 }
 
 fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) {
@@ -234,7 +248,7 @@ fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) 
         let Some(source) = p.sources.get(estimate.source) else { continue };
         let forced = source.state == State::Forced;
         let to = if forced { State::Candidate } else { State::Forced };
-        let text = if forced { t!("Release") } else { t!("Force", "button") };
+        let text = if forced { t!("Release") } else { t!("Force in") };
         let hover = if forced { "Lets the search leave it out again." } else { "Every set must then hold it." };
         let share = format::percent(0.01 * estimate.energy_percent);
         ui.horizontal(|ui| {

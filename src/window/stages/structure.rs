@@ -1,6 +1,7 @@
 //! Structure: natural frequencies beside the frequencies of the runs, mode shapes, which DOFs are measured.
 
 use super::identified;
+use super::run_table::{common_folder, file_name};
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::Quantity;
@@ -60,6 +61,7 @@ fn nearest(p: &Project, frequency: f64) -> Option<(usize, f64)> {
 
 fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
     ui.style_mut().interaction.selectable_labels = false;
+    let folder = common_folder(p);
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -71,8 +73,11 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
         .header(space::ROW, |mut header| {
             header.col(|ui| drop(ui.hint("Mode")));
             header.col(|ui| drop(identified::head_right(ui, "Frequency")));
-            header.col(|ui| drop(ui.hint("   Nearest run")));
-            header.col(|ui| drop(identified::head_right(ui, "Run is")));
+            header.col(|ui| {
+                ui.add_space(space::M);
+                ui.hint("Nearest run");
+            });
+            header.col(|ui| drop(identified::head_right(ui, "Run − mode")));
         })
         .body(|body| {
             body.rows(space::ROW, modes.len(), |mut row| {
@@ -84,7 +89,8 @@ fn table(ui: &mut Ui, p: &Project, modes: &Modes, chosen: &mut usize) {
                 let near = nearest(p, frequency);
                 row.col(|ui| {
                     if let Some((k, _)) = near {
-                        ui.label(format!("   {}", p.runs[k].file));
+                        ui.add_space(space::M);
+                        file_name(ui, &p.runs[k].file, folder);
                     }
                 });
                 row.col(|ui| {

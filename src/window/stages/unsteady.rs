@@ -1,5 +1,6 @@
 //! Records that are not steady, decays and transients, in the stage Measure: their table, their samples over time, their spectra.
 
+use super::run_table::file_name;
 use crate::display::{format, words};
 use crate::exchange::Project;
 use crate::measurement::TransientRun;
@@ -58,7 +59,7 @@ fn cells(row: &mut TableRow<'_, '_>, run: &TransientRun, index: usize, ticked: &
             *ticked = Some((run.file.clone(), used));
         }
     });
-    row.col(|ui| drop(ui.label(&run.file).on_hover_text(&run.file)));
+    row.col(|ui| file_name(ui, &run.file, 0));
     row.col(|ui| drop(ui.label(tr(run.kind.name()))));
     row.col(|ui| drop(ui.label(tr(format::prefixed(lasts(run), "s")))));
     row.col(|ui| {

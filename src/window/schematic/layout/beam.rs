@@ -174,19 +174,34 @@ impl<'a> Frame<'a> {
                 pos: node,
                 radius: HANDLE,
                 rotation,
-                label: node + vec2(8.0, -11.0),
+                label: node + self.label_offset(&d.label),
                 labelled: self.has_label(d.node),
             }
         }
     }
 
-    /// Whether the label of a node is shown: of so many that each has room beside its neighbour's sensor, the last among them.
+    /// Whether the label of a node is shown: of so many that each has room, the last among them.
     fn has_label(&self, node: usize) -> bool {
         let last = self.scene.nodes.len().saturating_sub(1);
-        let pitch = self.scale * self.span() / last.max(1) as f32;
-        let longest = self.scene.dofs.iter().map(|d| d.label.chars().count()).max().unwrap_or(1) as f32;
-        let every = ((BESIDE_LABEL + LETTER * longest) / pitch.max(1.0)).ceil().max(1.0) as usize;
+        let every = (self.label_room() / self.pitch().max(1.0)).ceil().max(1.0) as usize;
         (last - node.min(last)).is_multiple_of(every)
+    }
+
+    /// Room that a label wants beside its node.
+    fn label_room(&self) -> f32 {
+        let longest = self.scene.dofs.iter().map(|d| d.label.chars().count()).max().unwrap_or(1) as f32;
+        BESIDE_LABEL + LETTER * longest
+    }
+
+    /// Left centre of a label from its node: beside it above the beam, or below the beam where the neighbour's sensor is too near.
+    fn label_offset(&self, label: &str) -> Vec2 {
+        let crowded = self.label_room() > self.pitch();
+        if crowded { vec2(-0.5 * LETTER * label.chars().count() as f32, 15.0) } else { vec2(8.0, -11.0) }
+    }
+
+    /// Distance between neighbouring nodes on the screen, points.
+    fn pitch(&self) -> f32 {
+        self.scale * self.span() / self.scene.nodes.len().saturating_sub(1).max(1) as f32
     }
 
     /// Length along x, m.

@@ -53,9 +53,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
             ui.label(t!(
                 "The model is wrong by > 1000 %: at these frequencies hardly anything in it takes out energy."
             ));
-            ui.hint(
-                "Give it the damping that is known, or take over what was identified; then its errors say something.",
-            );
+            ui.hint("Give it the damping that is known, or add the identified sources; then its errors say something.");
             waiting(ui, false, asks);
         }
         None => searching(ui, scene, look, limit_s, asks),
@@ -78,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
 fn waiting(ui: &mut Ui, identified: bool, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let tip = "Makes the identified sources known at their values, and searches for what is missing beside them.";
-        if identified && ui.primary("Take over and search").on_hover_text(tr(tip)).clicked() {
+        if identified && ui.primary("Add them and search").on_hover_text(tr(tip)).clicked() {
             asks.push(Ask::Explain(Deed::TakeOver));
         }
         if ui.button(t!("Search anyway")).clicked() {
@@ -188,7 +186,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
     }
     let rest = diagnosis.corrections.len() - told.len();
     if rest > 0 {
-        ui.hint(format!("{rest} more, none further from 1 in deviations: pane Corrections."));
+        ui.hint(format!("{rest} more, less significant: tab Corrections."));
     }
     let adopted = adopted(scene, diagnosis);
     ui.horizontal_wrapped(|ui| {
@@ -259,7 +257,7 @@ fn adequate(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) {
         return;
     }
     ui.add_space(space::M);
-    ui.title("The way", "what was changed since the project was opened");
+    ui.title("Changes so far", "since the project was opened");
     for step in path {
         let step = &ledger.steps()[step];
         ui.pair(&step.label, in_words(step.error));
@@ -272,10 +270,11 @@ pub(super) fn next_tests(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis) 
         return;
     }
     let structure = &scene.document.project.structure;
-    ui.title("Next test", "what would tell most");
+    ui.title("Next test", "the run that would tell most");
     for test in &diagnosis.next_test {
         ui.label(tr(words::capital(&findings::next_test(structure, test))));
-        ui.hint(format!("{}.", format::polished(test.why.trim_end_matches('.'))));
+        let why = words::capital(&format::polished(test.why.trim_end_matches('.')));
+        ui.hint(format!("{why}."));
     }
 }
 

@@ -91,9 +91,9 @@ impl Row<'_> {
             bar(ui, self.deviations);
             if let Some((name, enabled)) = button {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let button = egui::Button::new(t!("Take over")).small();
+                    let button = egui::Button::new(t!("Apply")).small();
                     let response = ui.add_enabled(enabled, button);
-                    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, tf!("Take over: {name}")));
+                    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, tf!("Apply: {name}")));
                     let none = "The project has no number for it.";
                     let tip = "Puts it into the project; undo takes it back.";
                     clicked = response.on_hover_text(tr(tip)).on_disabled_hover_text(tr(none)).clicked();
@@ -139,7 +139,10 @@ fn percent(value: Estimated) -> String {
 
 /// Parts of the structure and known sources.
 fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
-    ui.title("The model", "factors less one that fit best, one deviation; the bar in deviations");
+    ui.title(
+        "The model",
+        "best-fitting change of each value, one standard deviation; the bar counts standard deviations",
+    );
     if diagnosis.corrections.is_empty() {
         ui.hint("The search did not have to correct anything of it.");
         ui.add_space(space::S);

@@ -37,8 +37,9 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, source: Option<&Source>) {
 
 fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let palette = ui.palette();
-    let above = figures(force, structure, palette);
-    let figures: Vec<Figure> = above.into_iter().chain(maps(force, structure, palette)).collect();
+    let mut figures: Vec<Figure> = figures(force, structure, palette).into();
+    let above = figures.len();
+    figures.extend(maps(force, structure, palette));
     let title = title(force, structure);
     ui.hint(format!("{title} over displacement and velocity")).on_hover_text(tr(caption(force)));
     key_row(ui, figures.iter().take(1));
@@ -50,6 +51,10 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
         ui.allocate_ui(vec2(width, PLOTS), |ui| {
             ui.set_width(width);
             let id = format!("{} {k}", figure.title);
+            if k >= above {
+                // Of two maps each says whose force it shows.
+                ui.hint(figure.title.rsplit(", ").next().unwrap_or_default());
+            }
             let place = show::Place { id: &id, height: PLOTS, group: None, ruler: show::RULER };
             let out = place.show(ui, &figure);
             let (low, high) = (out.transform.bounds().min(), out.transform.bounds().max());
@@ -59,8 +64,7 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     };
     for (row, keys) in (0..figures.len()).step_by(2).zip([None, figures.get(2)]) {
         if let Some(map) = keys {
-            let by_law = if figures.len() > row + 1 { ": as identified, then by the law" } else { "" };
-            ui.hint(format!("Force as colour over displacement and velocity{by_law}"));
+            ui.hint("Force as colour over displacement and velocity");
             key_row(ui, std::iter::once(map));
         }
         let plots = row..(row + 2).min(figures.len());

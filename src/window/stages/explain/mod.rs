@@ -143,9 +143,9 @@ pub fn status(document: &Document, explained: &Explained) -> StageStatus {
     };
     let (error, floor) = (format::in_words(comparison.error), format::percent(comparison.noise_floor));
     match explained.diagnosis(document) {
-        None if is_undamped(document) => StageStatus::attention(
-            "The model has no damping yet: take over what was identified, then see what is left.",
-        ),
+        None if is_undamped(document) => {
+            StageStatus::attention("The model has no damping yet: add the identified sources, then see what is left.")
+        }
         Some(Ok(d)) if is_stuck(d) => {
             let left = match spread(document, explained) {
                 Some(_) => "what is left is scatter from run to run",

@@ -237,7 +237,7 @@ fn said_of_untaken(scene: &Scene<'_>, outcome: Option<&Outcome>) -> Option<&'sta
         return None;
     }
     let known = sources.iter().any(|s| s.state == State::Known);
-    Some(if known { "What was identified does not act in the model yet." } else { "The model has no damping yet." })
+    Some(if known { "The identified sources are not in the model yet." } else { "The model has no damping yet." })
 }
 
 /// The same with the button that takes it over; in a low pane the button alone, which tells it under the pointer.
@@ -249,7 +249,7 @@ fn not_taken_over(ui: &mut Ui, said: &str, is_low: bool, asks: &mut Vec<Ask>) {
         }
         let tip = "Makes the identified sources known at their values.";
         let tip = if is_low { format!("{}\n{}", tr(said), tr(tip)) } else { tr(tip) };
-        if ui.button(t!("Take over what was identified")).on_hover_text(tip).clicked() {
+        if ui.button(t!("Add the identified sources")).on_hover_text(tip).clicked() {
             asks.push(Ask::Explain(Deed::TakeOver));
         }
     });

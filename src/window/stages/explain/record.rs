@@ -55,7 +55,7 @@ fn one(ui: &mut Ui, residual: &RecordResidual, look: &mut Look) {
             None => short(ui),
         },
         RecordTab::Spectrogram => match residual.spectrogram() {
-            Some(found) => found.show(ui, &format!("Left of {title}")),
+            Some(found) => found.show(ui, &format!("Residual of {title}")),
             None => short(ui),
         },
         _ => {

@@ -34,12 +34,14 @@ pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &
     let comparison = tried.or_else(|| explained.comparison(document).and_then(|c| c.as_ref().ok()));
     let shares = comparison
         .map(|c| shares(c, &Scale::new(explained.ledger.least_floor(), explained.ledger.worst()), scene.dofs.len()));
-    let mut caption = comparison.map_or_else(String::new, |c| format!("Error at the sensors, {}", in_words(c.error)));
+    let mut caption =
+        comparison.map_or_else(String::new, |c| format!("Error at the sensors (shaded) {}", in_words(c.error)));
     if let Some(source) = suggested {
         let verb = if look.trial.is_some() { "on trial" } else { "suggested" };
         let place = at(&document.project.structure, &source.place);
-        let error = comparison.map_or_else(String::new, |c| format!("Error {}{SEPARATOR}", in_words(c.error)));
-        caption = format!("{error}{verb}: {} {place}", words::effect(source.effect));
+        let error = comparison.map(|c| format!("Error (shaded) {}", in_words(c.error)));
+        let told = format!("{verb}: {} {place}", words::effect(source.effect));
+        caption = error.into_iter().chain([told]).collect::<Vec<_>>().join(SEPARATOR);
     }
     let scene = suggested.and_then(|s| with(scene, s)).map_or_else(|| Arc::clone(scene), Arc::new);
     Errors { scene, shares, caption }
