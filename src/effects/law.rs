@@ -176,15 +176,10 @@ pub trait WholeLaw: Sync {
     /// What is known of the law beside its force.
     fn description(&self) -> &'static Description;
 
-    /// The only parameter; the force is proportional to it.
-    fn parameter(&self) -> &'static Parameter {
-        &self.description().parameters[0]
-    }
-
     /// Matrix that is multiplied.
     fn basis(&self) -> Basis;
 
-    /// Complex factor of that matrix at circular frequency `omega` (rad/s).
+    /// Complex factor of that matrix, proportional to the only parameter, at circular frequency `omega` (rad/s).
     fn factor(&self, value: f64, omega: f64) -> c64;
 }
 
@@ -192,11 +187,6 @@ pub trait WholeLaw: Sync {
 pub trait ChannelLaw: Sync {
     /// What is known of the law beside its transfer.
     fn description(&self) -> &'static Description;
-
-    /// The only parameter.
-    fn parameter(&self) -> &'static Parameter {
-        &self.description().parameters[0]
-    }
 
     /// Ratio of recorded to true complex amplitude at circular frequency `omega` (rad/s).
     fn transfer(&self, value: f64, omega: f64) -> c64;

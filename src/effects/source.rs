@@ -242,11 +242,6 @@ impl Source {
         Self::known(Effect::DASHPOT, Place::Dofs(dofs), &[c])
     }
 
-    /// A spring of `k` N/m between or at the DOFs.
-    pub fn spring(dofs: Vec<usize>, k: f64) -> Self {
-        Self::known(Effect::SPRING, Place::Dofs(dofs), &[k])
-    }
-
     /// The simpler law at this place that the source is all but on motions of this range ([`Range::UNKNOWN`]: on any
     /// motion); none if it is no such.
     pub fn simpler(&self, range: &Range) -> Option<Self> {

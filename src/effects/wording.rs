@@ -23,11 +23,6 @@ impl Effect {
         &TITLES[self as usize]
     }
 
-    /// The law as a short formula of plain characters for tables, such as `F_c sgn(d')`.
-    pub fn symbol(self) -> &'static str {
-        self.description().formula
-    }
-
     /// What it is physically, in one sentence.
     pub fn sentence(self) -> &'static str {
         self.description().sentence

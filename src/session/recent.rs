@@ -37,15 +37,6 @@ impl Recent {
         self.save()
     }
 
-    /// Forgets `file`, for one that is no longer there.
-    ///
-    /// # Errors
-    /// [`SaveError`] if the list cannot be written.
-    pub fn remove(&mut self, file: &Path) -> Result<(), SaveError> {
-        self.files.retain(|other| other != file);
-        self.save()
-    }
-
     fn save(&self) -> Result<(), SaveError> {
         let disk = |reason: String| SaveError::Disk {
             action: "keep the list of recent files",

@@ -67,7 +67,8 @@ fn linear_laws_and_lossless_laws_are_known() {
         "stiffness cubic_stiffness quadratic_stiffness gap stop mass delay gain"
     );
     // In the tables every effect has its own title, formula and sentence.
-    for text in [Effect::noun, Effect::title, Effect::symbol, Effect::sentence] {
+    let formula = |effect: Effect| effect.description().formula;
+    for text in [&Effect::noun as &dyn Fn(Effect) -> &'static str, &Effect::title, &formula, &Effect::sentence] {
         let all: std::collections::HashSet<_> = Effect::ALL.into_iter().map(text).collect();
         assert_eq!(all.len(), Effect::ALL.len());
     }

@@ -81,11 +81,6 @@ impl ModalModel {
         self.modes.shapes.nrows()
     }
 
-    /// Natural circular frequencies, rad/s.
-    pub fn omega(&self) -> &[f64] {
-        &self.modes.omega
-    }
-
     /// Entry of mode `mode` at a DOF.
     pub fn shape(&self, mode: usize, dof: usize) -> f64 {
         self.modes.shapes[(dof, mode)]

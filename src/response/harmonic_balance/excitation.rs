@@ -76,17 +76,6 @@ impl Excitation {
     pub fn at(&self, omega: f64) -> Self {
         Self { omega, forces: self.forces.clone() }
     }
-
-    /// All forces multiplied by `factor`.
-    #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
-        let mut scaled = self.clone();
-        for force in &mut scaled.forces {
-            force.mean *= factor;
-            force.harmonics.iter_mut().for_each(|f| *f *= factor);
-        }
-        scaled
-    }
 }
 
 #[cfg(test)]

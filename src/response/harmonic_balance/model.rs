@@ -8,7 +8,6 @@ use super::resonant::Pattern;
 use crate::effects::{Leg, Source};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Mass, stiffness and sources of a structure, checked and prepared.
@@ -154,11 +153,6 @@ impl RunModel {
             return Ok(self.fitting(sources));
         }
         Ok(Self { omega: excitation.omega, compliances: Arc::default(), ..self.clone() }.fitting(sources))
-    }
-
-    /// Fundamental frequency, Hz.
-    pub fn frequency_hz(&self) -> f64 {
-        self.omega / TAU
     }
 }
 
