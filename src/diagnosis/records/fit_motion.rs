@@ -6,6 +6,7 @@ use crate::control::Control;
 use crate::effects::{Leg, Range};
 use crate::measurement::{Channel, Quantity};
 use crate::response::transient::{TransientModel, TransientSetup};
+use dashpot_numerics::dot;
 use std::f64::consts::TAU;
 
 /// Displacement (m), velocity (m/s) and acceleration (m/s^2) at every sample of the forces on a record.
@@ -42,17 +43,18 @@ impl FitMotion {
         Some(relative)
     }
 
-    /// Root mean square of the displacement along a leg about its mean in each record, m; none where it is no translation. The lowest
-    /// mode that moves is most of it, which a law does most of its work on.
-    pub(super) fn amplitude(&self, leg: Leg) -> Option<f64> {
-        let (mut square, mut count) = (0.0, 0);
+    /// Root mean squares over all records of the displacement along a leg about its mean in each, m, and of its velocity, m/s; none where
+    /// it is no translation.
+    pub(super) fn sizes(&self, leg: Leg) -> Option<[f64; 2]> {
+        let (mut squares, mut count) = ([0.0; 2], 0);
         for r in 0..self.rows.len() {
-            let [d, ..] = self.relative(leg, r)?;
+            let [d, v, _] = self.relative(leg, r)?;
             let mean = d.iter().sum::<f64>() / d.len().max(1) as f64;
-            square += d.iter().map(|d| (d - mean).powi(2)).sum::<f64>();
-            count += d.len();
+            squares[0] += d.iter().map(|d| (d - mean).powi(2)).sum::<f64>();
+            squares[1] += dot(&v, &v);
+            count += v.len();
         }
-        Some((square / count.max(1) as f64).sqrt())
+        Some(squares.map(|square| (square / count.max(1) as f64).sqrt()))
     }
 
     /// Range of the motion along a leg; none where nothing moves.
