@@ -138,6 +138,7 @@ mod tests {
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::diagnosis::records::fitted::FittedRecords;
+    use crate::effects::Place;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
     use crate::structure::Structure;

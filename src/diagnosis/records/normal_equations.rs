@@ -357,7 +357,7 @@ mod tests {
     #[test]
     fn the_expected_gain_is_that_of_a_quadratic_function() {
         let matrix = Mat::from_fn(2, 2, |i, j| [[4.0, 1.0], [1.0, 9.0]][i][j]);
-        let normal = NormalEquations { matrix, gradient: vec![2.0, -3.0], left: Left::default() };
+        let normal = Normal { matrix, gradient: vec![2.0, -3.0], left: Left::default() };
         let loss = |x: &[f64]| {
             let square: f64 = (0..2)
                 .flat_map(|i| (0..2).map(move |j| (i, j)))
