@@ -1,9 +1,10 @@
 //! Hides effects in projects, diagnoses them, and prints how often the right one was named: the tables of
-//! `docs/explain.md`.
+//! `docs/held-out.md`, and the reliability plot.
 //!
 //! `cargo run --release --no-default-features --example hidden_effects -- make FOLDER [FILTER] [FIRST_SEED] [COUNT]`
 //! writes the projects (a seed is one laboratory project and one project of every other class, structure and effect),
-//! `... -- judge FOLDER [FILTER] [WORKERS] [-- DIAGNOSE OPTIONS]` diagnoses them. A filter is a part of the names, such as
+//! `... -- judge FOLDER [FILTER] [WORKERS] [-- DIAGNOSE OPTIONS]` diagnoses them and writes
+//! `FOLDER/reliability.svg`. A filter is a part of the names, such as
 //! `lab2`, `clean-beam` or `coulomb`. Laboratory seeds 0 to 999 are for development, 1000 and more are held out.
 #![allow(clippy::unwrap_used, reason = "a study, not a library: a failure ends it with its place")]
 
@@ -16,6 +17,7 @@ mod lab;
 mod lab_records;
 mod random;
 mod records;
+mod reliability;
 mod sizing;
 mod specimen;
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
@@ -98,5 +100,8 @@ fn judge_all(folder: &Path, filter: &str, workers: usize, options: &[String]) {
         let class = name.split('-').next().unwrap_or_default().to_string();
         tallies.lock().unwrap().entry(class).or_default().add(&judged.tally);
     });
-    println!("\n{}", tally::report(&tallies.into_inner().unwrap()));
+    let tallies = tallies.into_inner().unwrap();
+    let told: Vec<tally::Told> = tallies.values().flat_map(|tally| tally.told.iter().copied()).collect();
+    std::fs::write(folder.join("reliability.svg"), reliability::plot(&told)).unwrap();
+    println!("\n{}", tally::report(&tallies));
 }

@@ -1,5 +1,6 @@
 //! Counts over the projects of a class, their table, and the figures beside what is asked for.
 
+use super::reliability::{Bin, bins};
 use std::collections::BTreeMap;
 
 /// A suggestion: what probability it was told with, and whether it was right.
@@ -141,26 +142,13 @@ pub(crate) fn report(tallies: &BTreeMap<String, Tally>) -> String {
 
 /// How often suggestions told with a probability were right.
 fn calibration(told: &[Told]) -> String {
-    let bounds = [0.0, 0.01, 0.05, 0.2, 0.5, 0.8, 0.9, 0.97, 0.995, 1.0 + 1e-9];
-    let mut lines = "told         n  mean told   law right   law and place right\n".to_string();
-    for pair in bounds.windows(2) {
-        let list: Vec<&Told> = told.iter().filter(|t| t.probability >= pair[0] && t.probability < pair[1]).collect();
-        if list.is_empty() {
-            continue;
-        }
-        let share =
-            |right: &dyn Fn(&Told) -> bool| 100.0 * list.iter().filter(|t| right(t)).count() as f64 / list.len() as f64;
-        let mean = 100.0 * list.iter().map(|t| t.probability).sum::<f64>() / list.len() as f64;
-        lines.push_str(&format!(
-            "{:5.3}-{:5.3} {:4}  {mean:6.1} %    {:6.1} %    {:6.1} %\n",
-            pair[0],
-            pair[1].min(1.0),
-            list.len(),
-            share(&|t| t.law),
-            share(&|t| t.place)
-        ));
-    }
-    lines
+    let row = |bin: &Bin| {
+        let [from, to] = bin.range;
+        let [mean, law, place] = [bin.told, bin.law, bin.place].map(|share| 100.0 * share);
+        format!("{from:5.3}-{to:5.3} {:4}  {mean:6.1} %    {law:6.1} %    {place:6.1} %\n", bin.count)
+    };
+    let rows: String = bins(told).iter().map(row).collect();
+    format!("told         n  mean told   law right   law and place right\n{rows}")
 }
 
 /// The laboratory beside what is asked for.
