@@ -275,7 +275,7 @@ pub struct HarmonicsTable {
     /// Channel of its columns `amplitude` and `phase_deg`, such as `acc@7 [g]`.
     pub response: Option<String>,
     /// Quantity whose phases a stepped-sine table gives (`disp`, `vel`, `acc`), where it is not that of the channel.
-    #[serde(serialize_with = "word")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
     pub phase_of: Option<Quantity>,
     /// Label of the force level of all its runs that name none.
     pub level: Option<i64>,

@@ -68,7 +68,7 @@ pub struct FrfTable {
     /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
     pub step_hz: Option<f64>,
     /// How the columns are parts of complex numbers two by two, where their names do not say it.
-    #[serde(serialize_with = "word")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
     pub columns: Option<Pairing>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
