@@ -35,13 +35,15 @@ fn row(count: usize) -> Sample {
     let structure = chain_of(&masses, &ground, &gaps);
     let mut head = format!(
         "[project]\nformat = 1\ntitle = \"{count} in a row\"\n[structure]\nkind = \"chain\"\nmasses = {masses:?}\n\
-         ground_stiffness = {ground:?}\ncoupling_stiffness = {gaps:?}\n[[source]]\nlaw = \"viscous\"\ndofs = [1]\n"
+         ground_stiffness = {ground:?}\ncoupling_stiffness = {gaps:?}\n[[source]]\nlaw = \"viscous\"\ndofs = [1]\n\
+         state = \"candidate\"\n"
     );
     let mut truth = vec![Source::known(Effect::Viscous, Place::Dofs(vec![0]), &[2.0])];
     for k in 1..count {
         let c = 0.5 + 0.1 * k as f64;
         truth.push(Source::known(Effect::Viscous, Place::Dofs(vec![k - 1, k]), &[c]));
-        let known = if k % 7 == 0 { String::new() } else { format!("state = \"known\"\nc = {c}\n") };
+        let known =
+            if k % 7 == 0 { "state = \"candidate\"\n".to_string() } else { format!("state = \"known\"\nc = {c}\n") };
         write!(head, "[[source]]\nlaw = \"viscous\"\ndofs = [{k}, {}]\n{known}", k + 1).unwrap();
     }
     write(&head, &structure, &truth, count - 1, &(0..count).collect::<Vec<_>>())

@@ -11,7 +11,9 @@ const KEPT: usize = 4096;
 /// How deep texts are taken apart.
 const DEEP: usize = 6;
 /// What stands between pieces that are said on their own, the strongest first.
-const BETWEEN: [&str; 9] = ["\n", "   ·   ", "  ·  ", "   ", "; ", ": ", " · ", ",  ", ", "];
+/// Between captions of one line.
+const CAPTIONS: &str = "   ·   ";
+const BETWEEN: [&str; 9] = ["\n", CAPTIONS, "  ·  ", "   ", "; ", ": ", " · ", ",  ", ", "];
 
 thread_local! {
     /// Texts in the language that they were asked for last.
@@ -54,7 +56,10 @@ fn translated(catalogue: &Catalogue, english: &str, depth: usize) -> Option<Stri
     if depth > DEEP || !trimmed.contains(char::is_alphabetic) {
         return None;
     }
-    let said = whole(catalogue, trimmed, depth).or_else(|| pieces(catalogue, trimmed, depth))?;
+    // No template reaches over what stands between captions.
+    let captions = trimmed.contains(CAPTIONS);
+    let whole = if captions { None } else { whole(catalogue, trimmed, depth) };
+    let said = whole.or_else(|| pieces(catalogue, trimmed, depth))?;
     let (before, after) = (english.len() - english.trim_start().len(), english.trim_end().len());
     Some(format!("{}{said}{}", &english[..before], &english[after..]))
 }
@@ -125,6 +130,8 @@ mod tests {
         assert_eq!(tr("shaker-0.5.csv"), "shaker-0.5.csv");
         assert_eq!(tr("12.5 Hz"), "12,5 Hz");
         assert_eq!(tr("   Run 3"), "   Lauf 3");
+        let caption = "Run 1   13.07 Hz   largest 27.9 mm (peak)   ·   driven at its base";
+        assert_eq!(tr(caption), "Lauf 1   13,07 Hz   größter Ausschlag 27,9 mm (Spitze)   ·   am Fußpunkt erregt");
         choose(Language::English);
         assert_eq!(tr("Frequency"), "Frequency");
     }
