@@ -123,9 +123,13 @@ mod tests {
         let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
         let mut start = FittedRecords::start(&search.levels[0], &[]);
         start.effects = vec![Source::known(Effect::Viscous, Place::Dofs(vec![1]), &[0.7])];
-        let left = |fit: &FittedRecords| search.problem(0, 1.0).left(fit).unwrap().chi_square;
+        // The sensors do not tell the state at the very beginning.
+        let left = |fit: &FittedRecords| {
+            let left = search.problem(0, 1.0).left(fit).unwrap().residual;
+            left.iter().skip(1).flatten().flatten().map(|e| e * e).sum::<f64>()
+        };
         let before = left(&start);
         let begun = search.in_best_states(0, start);
-        assert!(left(&begun) < 0.05 * before, "{} {before}", left(&begun));
+        assert!(begun.initial.len() > 1 && left(&begun) < 0.2 * before, "{} {before}", left(&begun));
     }
 }

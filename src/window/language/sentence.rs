@@ -10,9 +10,9 @@ use std::collections::HashMap;
 const KEPT: usize = 4096;
 /// How deep texts are taken apart.
 const DEEP: usize = 6;
-/// What stands between pieces that are said on their own, the strongest first.
 /// Between captions of one line.
 const CAPTIONS: &str = "   ·   ";
+/// What stands between pieces that are said on their own, the strongest first.
 const BETWEEN: [&str; 9] = ["\n", CAPTIONS, "  ·  ", "   ", "; ", ": ", " · ", ",  ", ", "];
 
 thread_local! {

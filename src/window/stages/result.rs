@@ -22,7 +22,7 @@ use std::sync::Arc;
 const SHARE: f32 = 64.0;
 /// Largest width of bars and coefficients, and width of the column of deviations, points.
 const WIDEST: f32 = 900.0;
-const DEVIATION: f32 = 78.0;
+const DEVIATION: f32 = 62.0;
 
 /// The answer, or what is shown in its place.
 fn ready(ui: &mut Ui, opened: &mut Opened<'_>) -> Option<Arc<Outcome>> {
@@ -181,11 +181,11 @@ fn ratios(ui: &mut Ui, outcome: &Outcome) {
         .id_salt("damping")
         .striped(true)
         .cell_layout(Layout::left_to_right(Align::Center))
-        .column(Column::exact(44.0))
-        .column(Column::exact(86.0))
-        .column(Column::exact(112.0))
+        .column(Column::exact(34.0))
+        .column(Column::exact(78.0))
+        .column(Column::exact(84.0))
         .column(Column::exact(DEVIATION))
-        .column(Column::remainder().at_least(80.0).at_most(160.0))
+        .column(Column::remainder().at_least(60.0).at_most(160.0))
         .header(space::ROW, |mut row| {
             row.col(|ui| drop(ui.hint("Mode")));
             for name in ["Frequency", name_of_measure, "Deviation", "Half-power"] {
