@@ -30,7 +30,7 @@ fn the_dashpot_that_changed_is_named() {
     harness.remove_cursor();
     settle(&mut harness);
     harness.snapshot("change");
-    harness.get_by_role_and_label(Role::Button, "End").click();
+    harness.get_by_role_and_label(Role::Button, "End comparison").click();
     settle(&mut harness);
     harness.get_by_label("What changed?");
 }
