@@ -25,6 +25,7 @@ mod suite;
 mod tally;
 mod unsteady;
 
+use dashpot::exchange::atomic::write_atomically;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -102,6 +103,6 @@ fn judge_all(folder: &Path, filter: &str, workers: usize, options: &[String]) {
     });
     let tallies = tallies.into_inner().unwrap();
     let told: Vec<tally::Told> = tallies.values().flat_map(|tally| tally.told.iter().copied()).collect();
-    std::fs::write(folder.join("reliability.svg"), reliability::plot(&told)).unwrap();
+    write_atomically(&folder.join("reliability.svg"), reliability::plot(&told).as_bytes()).unwrap();
     println!("\n{}", tally::report(&tallies));
 }

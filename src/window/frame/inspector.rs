@@ -150,7 +150,7 @@ fn adjust(ui: &mut Ui, r: &crate::measurement::Run, asks: &mut Vec<Ask>) {
 fn sensors(ui: &mut Ui, p: &Project, file: &ProjectFile, dof: usize, asks: &mut Vec<Ask>) {
     let mut names: Vec<String> = Vec::new();
     let steady = p.runs.iter().flat_map(|r| &r.fit.channels).map(|c| &c.channel);
-    let over_time = p.transient_runs.iter().flat_map(|r| r.channels());
+    let over_time = p.transient_runs.iter().flat_map(crate::measurement::TransientRun::channels);
     for channel in steady.chain(over_time).filter(|c| c.dof == dof) {
         let name = channel.to_string();
         if !names.contains(&name) {
