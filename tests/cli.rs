@@ -253,7 +253,7 @@ fn compare_and_diagnose_speak_of_what_is_missing() {
     assert!(compared["error"].as_f64() > compared["noise_floor"].as_f64());
     let diagnosed = json(&["diagnose", "p.toml", "--json", "--apply", "better.toml"], folder.path());
     assert!(diagnosed["verdict"].is_string() && diagnosed["steps"].is_array());
-    assert!(folder.path().join("better.toml").exists());
+    assert!(folder.path().join("better.toml").exists() && diagnosed["error_applied"].is_null());
 }
 
 #[test]
