@@ -6,7 +6,7 @@ use super::mended_first::mended_first;
 use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
 use super::table::{number, table};
-use super::{channel_faults, identified};
+use super::{channel_faults, identified, run_differences};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
 use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};
@@ -52,6 +52,7 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         answer_within(&control, &project, Duration::from_secs_f64(seconds));
     }
     let mut diagnosis = diagnosed(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
+    let differences = run_differences::sentences(&project, &diagnosis, &control);
     let mut left_in_file = None;
     if let Some(out) = &arguments.apply {
         let document = match &mended {
@@ -72,6 +73,7 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if arguments.json {
         let mut document = document(&project, &diagnosis);
         document["error_applied"] = json!(left_in_file);
+        document["run_differences"] = json!(differences);
         document["identify_explains"] = json!(rival.map(|rival| rival.document(&project)));
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
@@ -80,7 +82,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     }
     let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
     let rival = rival.map_or_else(String::new, |rival| rival.words(&project));
-    Ok(format!("{}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
+    let differences = run_differences::text(&differences);
+    Ok(format!("{}{differences}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.
