@@ -32,7 +32,10 @@ fn of_frequencies(scatter: &Scatter, spread: &RunSpread) -> String {
     );
     if let Some(change) = drift(scatter) {
         let way = if change > 0.0 { "rise" } else { "fall" };
-        said.push_str(&format!("; they {way} by {} from the first run to the last: temperature?", percent(change.abs())));
+        said.push_str(&format!(
+            "; they {way} by {} from the first run to the last: temperature?",
+            percent(change.abs())
+        ));
     }
     said
 }
@@ -110,7 +113,10 @@ mod tests {
     fn a_high_pass_is_told_by_its_phase() {
         let hz = |r: usize| Some(2.0 + r as f64);
         let told = sentences(&runs(8, |_| 0.0, |r| 0.5 / (2.0 + r as f64) - 0.01 * r as f64), &hz);
-        assert!(told.len() == 1 && told[0].contains("all motions lead") && told[0].contains("(AC coupling)"), "{told:?}");
+        assert!(
+            told.len() == 1 && told[0].contains("all motions lead") && told[0].contains("(AC coupling)"),
+            "{told:?}"
+        );
         let turned = sentences(&runs(8, |_| 0.0, |r| if r % 3 == 0 { 0.1 } else { -0.05 }), &hz);
         assert_eq!(turned, Vec::<String>::new());
     }

@@ -91,7 +91,10 @@ fn structures() {
     let without = BEAM.replace("depth = 0.004\n", "");
     refused(&without, "p.toml:3: [structure] lacks `depth`; add `depth = 0.004`");
     refused(&BEAM.replace("depth = ", "dept = "), "p.toml:7: [structure] has no key `dept`; did you mean `depth`?");
-    refused(&BEAM.replace("0.56", "inf"), "p.toml:5: `length = inf` is not a usable number; it must be finite, from -1e30 to 1e30");
+    refused(
+        &BEAM.replace("0.56", "inf"),
+        "p.toml:5: `length = inf` is not a usable number; it must be finite, from -1e30 to 1e30",
+    );
     refused(&BEAM.replace("0.56", "\"0.56\""), "p.toml:5: `length` must be a number, not a text");
     refused(&BEAM.replace("0.56", "-1"), "p.toml:5: length is -1 m: give a positive number of at most 1e30");
     refused(

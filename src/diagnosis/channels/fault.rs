@@ -218,7 +218,8 @@ fn reason(name: &str, size: f64) -> Option<String> {
     let same = |m: &&Misreading| (m.quantity.is_none() || m.quantity == quantity) && m.factor == size;
     let found = all.iter().find(same)?;
     // A unit that no test tells from it.
-    let alike = |m: &&Misreading| m.quantity.is_some() && m.quantity == quantity && (m.factor / size).ln().abs() < ALIKE;
+    let alike =
+        |m: &&Misreading| m.quantity.is_some() && m.quantity == quantity && (m.factor / size).ln().abs() < ALIKE;
     let unit = all.iter().filter(|_| found.quantity.is_none()).find(alike);
     Some(unit.map_or_else(|| found.why.to_owned(), |unit| format!("{}, or {}", found.why, unit.why)))
 }
