@@ -3,6 +3,8 @@
 
 #[path = "cli/records.rs"]
 mod records;
+#[path = "cli/unsettled.rs"]
+mod unsettled;
 
 use std::fs;
 use std::path::Path;
@@ -253,7 +255,7 @@ fn compare_and_diagnose_speak_of_what_is_missing() {
     assert!(compared["error"].as_f64() > compared["noise_floor"].as_f64());
     let diagnosed = json(&["diagnose", "p.toml", "--json", "--apply", "better.toml"], folder.path());
     assert!(diagnosed["verdict"].is_string() && diagnosed["steps"].is_array());
-    assert!(folder.path().join("better.toml").exists());
+    assert!(folder.path().join("better.toml").exists() && diagnosed["error_applied"].is_null());
 }
 
 #[test]
@@ -274,50 +276,6 @@ fn a_script_is_played_on_a_project_that_stays_as_it_is() {
     let refused = dashpot(&["run", "s.json", "p.toml"], folder.path());
     assert_eq!(refused.status.code(), Some(1));
     assert!(text(&refused.stderr).starts_with("s.json: step 1 of the script"), "{}", text(&refused.stderr));
-}
-
-/// Writes `made/run-01.csv` anew: force and accelerations at 12 Hz, each times `shape(t)`.
-fn reshape(folder: &Path, shape: impl Fn(f64) -> f64) {
-    let path = folder.join("made/run-01.csv");
-    let text = fs::read_to_string(&path).unwrap();
-    let mut lines = text.lines();
-    let mut made = format!("{}\n", lines.next().unwrap());
-    for line in lines {
-        let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
-        let rest: String = numbers[1..].iter().map(|y| format!(",{}", y * shape(numbers[0]))).collect();
-        made.push_str(&format!("{}{rest}\n", numbers[0]));
-    }
-    fs::write(path, made).unwrap();
-}
-
-#[test]
-fn runs_that_are_not_steady_are_told_and_used_where_the_user_insists() {
-    let folder = measured();
-    reshape(folder.path(), |t| (t / 0.3).min(1.0));
-    let refused = dashpot(&["compare", "p.toml"], folder.path());
-    assert_eq!(refused.status.code(), Some(1));
-    let said = text(&refused.stderr);
-    assert!(said.contains("no run can be compared") && said.contains("is run up until"), "{said}");
-    let insisting = SOUGHT.replace("frequency = 12\n", "frequency = 12\nuse = true\n");
-    fs::write(folder.path().join("p.toml"), insisting).unwrap();
-    let printed = dashpot(&["compare", "p.toml"], folder.path());
-    let table = text(&printed.stdout);
-    assert!(table.contains("not-settled") && table.contains("is run up until"), "{table}");
-    assert!(!table.contains("left out"), "{table}");
-    let document = json(&["compare", "p.toml", "--json"], folder.path());
-    assert_eq!(document["runs"][0]["used"], true);
-    assert_eq!(document["runs"][0]["findings"][0]["flag"], "not-settled");
-
-    reshape(folder.path(), |t| (-8.0 * t).exp());
-    let decaying = fs::read_to_string(folder.path().join("made/run-01.csv")).unwrap();
-    let forceless: String = decaying
-        .lines()
-        .map(|l| format!("{},{}\n", l.split(',').next().unwrap(), l.split(',').nth(2).unwrap()))
-        .collect();
-    fs::write(folder.path().join("made/run-01.csv"), forceless).unwrap();
-    fs::write(folder.path().join("p.toml"), SOUGHT).unwrap();
-    let refused = dashpot(&["compare", "p.toml"], folder.path());
-    assert!(text(&refused.stderr).contains("is a free decay, no steady sine"), "{}", text(&refused.stderr));
 }
 
 /// A mass without any spring, with a dashpot: the model predicts it, and what is missing is found.

@@ -21,6 +21,7 @@ use crate::structure::Structure;
 use anyhow::Context;
 use faer::c64;
 use serde_json::{Value, json};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Probability of chance below which a dependence is called one.
@@ -67,6 +68,15 @@ pub(super) fn run(arguments: &Analysis) -> anyhow::Result<String> {
     let records = records.map_or_else(String::new, |r| super::records::text(&project, &r));
     let reduced = reduction::text(&project.structure);
     Ok(format!("{}{reduced}{words}{}{records}", text(&project, &comparison), run_flags::text(&project)))
+}
+
+/// The error of a project of `file`, as its table says it.
+pub(super) fn error(project: &Project, file: &Path, control: &Control) -> anyhow::Result<f64> {
+    let records = if only_records(project) { compared(project, file, control)? } else { None };
+    Ok(match records {
+        Some(records) => records.error,
+        None => compare(&problem(project), &[], control)?.error,
+    })
 }
 
 /// Whether the model is detuned, told by the runs that it predicts.

@@ -6,7 +6,7 @@ use super::mended_first::mended_first;
 use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
 use super::table::{number, table};
-use super::{channel_faults, identified};
+use super::{channel_faults, identified, run_differences};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
 use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};
@@ -52,6 +52,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
         answer_within(&control, &project, Duration::from_secs_f64(seconds));
     }
     let mut diagnosis = diagnosed(&project, &control, &early).with_context(|| arguments.file.display().to_string())?;
+    let differences = run_differences::sentences(&project, &diagnosis, &control);
+    let mut left_in_file = None;
     if let Some(out) = &arguments.apply {
         let document = match &mended {
             Some(mended) => mended.document.clone(),
@@ -59,7 +61,10 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
                 Session::open(&arguments.file).with_context(|| arguments.file.display().to_string())?.document().clone()
             }
         };
-        apply(&arguments.file, out, &Written { project: &project, document, taken: &taken }, &diagnosis)?;
+        let written = Written { project: &project, document, taken: &taken };
+        if !apply(&arguments.file, out, &written, &diagnosis)? {
+            left_in_file = error_of(out, &control);
+        }
     }
     if let Some(mended) = mended {
         mended.before(&project.sources, &mut diagnosis, &control)?;
@@ -67,6 +72,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     let rival = if taken.is_empty() { identified::Rival::of(&project, &diagnosis, &control) } else { None };
     if arguments.json {
         let mut document = document(&project, &diagnosis);
+        document["error_applied"] = json!(left_in_file);
+        document["run_differences"] = json!(differences);
         document["identify_explains"] = json!(rival.map(|rival| rival.document(&project)));
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
@@ -75,7 +82,8 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     }
     let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
     let rival = rival.map_or_else(String::new, |rival| rival.words(&project));
-    Ok(format!("{}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
+    let differences = run_differences::text(&differences);
+    Ok(format!("{}{differences}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.
@@ -252,9 +260,18 @@ fn records_in_words(diagnosis: &Diagnosis) -> String {
     format!("\nrecords: error {before} % before, {after} % after, noise floor {floor} %\n")
 }
 
+/// What `compare` shows of a project that was written without all that was promised; said, for it is not the error that was told.
+fn error_of(out: &Path, control: &Control) -> Option<f64> {
+    let said = |why: String| eprintln!("{}: what it leaves is not known: {why}", out.display());
+    let project = load(out, control).map_err(|error| said(error.to_string())).ok()?;
+    let left = super::compare::error(&project, out, control).map_err(|error| said(error.to_string())).ok()?;
+    eprintln!("{}: the project that was written, without that, leaves {} %", out.display(), number(100.0 * left));
+    Some(left)
+}
+
 /// Writes the project with the best suggestion, or the set that it is of, added as `known`, and the corrections; comments
-/// and everything else stay as they are.
-fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<()> {
+/// and everything else stay as they are. Whether all of it was written.
+fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<bool> {
     let context = || file.display().to_string();
     let mut document = written.document.clone();
     for source in written.taken {
@@ -285,21 +302,65 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
     for source in best.into_iter().flatten() {
         document = added(&document, &source).with_context(context)?;
     }
+    let mut all = adopted.impossible.is_none() && adopted.left.is_empty();
     let mendable = diagnosis.channel_faults.iter().filter(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
     for fault in mendable {
         let command = mending::command(fault, written.project);
         match command.and_then(|command| document.after(&command).map_err(|error| error.to_string())) {
             Ok(mended) => document = mended,
-            Err(why) => eprintln!("not written: {}: {why}", fault.words()),
+            Err(why) => {
+                all = false;
+                eprintln!("not written: {}: {why}", fault.words());
+            }
         }
     }
     let folder = out.parent().unwrap_or(Path::new(""));
     let text = text_after(&document.file_in(folder)?, Some(file))?;
-    crate::exchange::atomic::write_atomically(out, text.as_bytes()).with_context(|| out.display().to_string())
+    crate::exchange::atomic::write_atomically(out, text.as_bytes()).with_context(|| out.display().to_string())?;
+    Ok(all)
 }
 
 /// The document with an effect added.
 fn added(document: &Document, source: &Source) -> anyhow::Result<Document> {
     let command = suggestions::add(source, document).map_err(anyhow::Error::msg)?;
     Ok(document.after(&command)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnosis::result::{Step, Verdict};
+    use crate::diagnosis::updating::correction::Correction;
+    use crate::diagnosis::updating::parameters::UpdatingParameter;
+    use crate::structure::Part;
+
+    #[test]
+    fn what_is_written_without_its_corrections_is_compared_anew() {
+        let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("sample-data/five-masses-cubic/project.toml");
+        let control = Control::unattended();
+        let project = load(&sample, &control).unwrap();
+        let document = || Session::open(&sample).unwrap().document().clone();
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out.toml");
+        let found = |factor: f64| Diagnosis {
+            verdict: Verdict::Unexplained,
+            corrections: vec![Correction {
+                parameter: UpdatingParameter::Structure(Part::Mass),
+                factor,
+                deviation: 0.1,
+            }],
+            ..Diagnosis::adequate(Step { added: Vec::new(), error: 0.01, misfit: 1.0 }, 0.001)
+        };
+        let written = |factor: f64| {
+            let taken = Written { project: &project, document: document(), taken: &[] };
+            apply(&sample, &out, &taken, &found(factor)).unwrap()
+        };
+        assert!(!written(8.0));
+        let stated = super::super::compare::error(&project, &sample, &control).unwrap();
+        let left = error_of(&out, &control).unwrap();
+        assert!((left - stated).abs() < 1e-6 * stated, "{left} {stated}");
+        assert!(written(1.1));
+        assert!((error_of(&out, &control).unwrap() - stated).abs() > 1e-3 * stated);
+        assert_eq!(error_of(&folder.path().join("none.toml"), &control), None);
+    }
 }

@@ -4,5 +4,6 @@ pub(crate) mod change;
 pub mod findings;
 pub mod format;
 pub mod glossary;
+pub mod run_differences;
 pub mod units;
 pub mod words;

@@ -1,5 +1,7 @@
 //! One parameter of a law: its name in files, unit, symbol, physical range and the variable in which it is fitted.
 
+use crate::math::GREATEST;
+
 /// One parameter of a law: its name in project files, its unit, its symbol in formulas and its physical range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
@@ -78,11 +80,11 @@ impl Parameter {
         self.within(least, greatest, Ends::OpenBelow)
     }
 
-    /// Whether `value` is finite and within the limits.
+    /// Whether `value` is within the limits, and no number beyond physical quantities.
     pub fn allows(&self, value: f64) -> bool {
         let above = if self.ends == Ends::Closed { value >= self.least } else { value > self.least };
         let below = if self.ends == Ends::Open { value < self.greatest } else { value <= self.greatest };
-        value.is_finite() && above && below
+        value.abs() <= GREATEST && above && below
     }
 
     /// The limits in words, such as `above 0 and at most 5`.

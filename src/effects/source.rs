@@ -6,6 +6,7 @@ use super::kind::Kind;
 use super::motion::{Motion, linear_energy};
 use super::place::Place;
 use super::range::Range;
+use crate::math::GREATEST;
 use crate::structure::Structure;
 use faer::c64;
 use serde::{Deserialize, Serialize};
@@ -146,7 +147,9 @@ impl Source {
         }
         for (parameter, &value) in list.iter().zip(&self.parameters) {
             if !parameter.allows(value) {
-                let (name, unit, range) = (parameter.name, parameter.unit, parameter.range());
+                let beyond = value.abs() > GREATEST;
+                let range = if beyond { "from -1e30 to 1e30".to_owned() } else { parameter.range() };
+                let (name, unit) = (parameter.name, parameter.unit);
                 return Err(SourceError::OutOfRange { effect, name, value, range, unit });
             }
         }

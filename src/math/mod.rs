@@ -12,3 +12,7 @@ pub(crate) mod spectrum;
 pub(crate) mod statistics;
 pub mod subsets;
 pub(crate) mod zero_phase;
+
+/// Greatest number that is a physical quantity in SI units: beyond it stand marks of other programs and slips of the pen, whose squares and
+/// products overflow.
+pub(crate) const GREATEST: f64 = 1e30;

@@ -81,16 +81,24 @@ pub struct Finding {
     pub channel: Option<Channel>,
     /// Why, in one sentence with numbers and units.
     pub reason: String,
+    /// How much of the signal it is, relative, where that is known.
+    pub share: Option<f64>,
 }
 
 impl Finding {
     /// A finding about the record or the motion as a whole.
     pub fn of_record(flag: Flag, reason: String) -> Self {
-        Self { flag, channel: None, reason }
+        Self { flag, channel: None, reason, share: None }
+    }
+
+    /// The same with how much of the signal it is, relative.
+    #[must_use]
+    pub(super) fn of_share(self, share: f64) -> Self {
+        Self { share: Some(share), ..self }
     }
 
     /// A finding about one channel.
     pub fn of_channel(flag: Flag, channel: &Channel, reason: String) -> Self {
-        Self { flag, channel: Some(channel.clone()), reason }
+        Self { flag, channel: Some(channel.clone()), reason, share: None }
     }
 }

@@ -32,6 +32,7 @@ mod sums;
 mod transient_correction;
 mod transient_quality;
 pub mod transient_run;
+pub(crate) mod unsettled;
 mod whole_functions;
 mod zero;
 

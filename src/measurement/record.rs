@@ -11,7 +11,7 @@ pub(crate) const FEWEST_SAMPLES: usize = 5;
 const MOST_REPEATED: f64 = 0.1;
 
 /// Largest number that is taken for a measurement, SI units; squares of larger ones soon overflow.
-pub(crate) const MOST: f64 = 1e30;
+pub(crate) const MOST: f64 = crate::math::GREATEST;
 
 /// A time record: `samples[channel][n]` at `time[n]`.
 ///

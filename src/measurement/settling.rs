@@ -64,19 +64,21 @@ pub(super) fn not_settled(record: &Record, fit: &HarmonicFit) -> Option<Finding>
     let drifts =
         [(3, "third"), (2, "half")].into_iter().filter_map(|(parts, word)| Some((drift(record, fit, parts)?, word)));
     if let Some((drift, part)) = drifts.max_by(|a, b| a.0.relative.total_cmp(&b.0.relative)) {
-        return Some(finding(format!(
+        let found = finding(format!(
             "{} changes by {:.2} % from the first {part} of the record to the last (noise explains {:.2} %)",
             name(drift.channel),
             100.0 * drift.relative,
             100.0 * drift.explained
-        )));
+        ));
+        return Some(found.of_share(drift.relative));
     }
     let (channel, relative) = fall(record, fit)?;
-    Some(finding(format!(
+    let found = finding(format!(
         "{} has a part that does not repeat, of {:.2} % in the first half of the record, and dies out",
         name(channel),
         100.0 * relative
-    )))
+    ));
+    Some(found.of_share(relative))
 }
 
 fn finding(what: String) -> Finding {

@@ -8,7 +8,7 @@ use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::{Effect, Source, State};
-use crate::exchange::project::correction::CorrectionTable;
+use crate::exchange::project::correction::{CorrectionTable, FACTORS};
 use crate::exchange::project::file::{Shape, StructureTable};
 use crate::structure::{Part, Structure};
 use std::collections::BTreeMap;
@@ -49,7 +49,7 @@ fn is_possible(correction: &Correction, unexplained: bool) -> bool {
         UpdatingParameter::Structure(part) => !matches!(part, Part::Support(_) | Part::ModeDamping(_)),
         _ => false,
     };
-    factor > 0.0 && factor.is_finite() && !(unexplained && bounded && factor.ln().abs() > MOST.ln())
+    FACTORS.contains(&factor) && !(unexplained && bounded && factor.ln().abs() > MOST.ln())
 }
 
 /// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.

@@ -1,12 +1,14 @@
 //! What can be wrong with a structure.
 
+use crate::math::GREATEST;
+
 /// Why a structure could not be built, or has no modes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum StructureError {
-    #[error("{name} is {value} {unit}: give a positive finite number")]
+    #[error("{name} is {value} {unit}: give a positive number of at most 1e30")]
     NotPositive { name: String, value: f64, unit: &'static str },
-    #[error("{name} is {value} {unit}: give a finite number that is not negative")]
+    #[error("{name} is {value} {unit}: give a number from 0 to 1e30")]
     Negative { name: String, value: f64, unit: &'static str },
     #[error("the beam has no elements: set elements to 1 or more")]
     NoElements,
@@ -107,18 +109,18 @@ fn distance(a: &str, b: &str) -> f64 {
     row[other.len()] as f64
 }
 
-/// Fails unless `value` is positive and finite.
+/// Fails unless `value` is positive and a physical quantity.
 pub(crate) fn positive(name: impl Into<String>, value: f64, unit: &'static str) -> Result<(), StructureError> {
-    if value > 0.0 && value.is_finite() {
+    if value > 0.0 && value <= GREATEST {
         Ok(())
     } else {
         Err(StructureError::NotPositive { name: name.into(), value, unit })
     }
 }
 
-/// Fails unless `value` is finite and at least zero.
+/// Fails unless `value` is at least zero and a physical quantity.
 pub(crate) fn not_negative(name: impl Into<String>, value: f64, unit: &'static str) -> Result<(), StructureError> {
-    if value >= 0.0 && value.is_finite() {
+    if value >= 0.0 && value <= GREATEST {
         Ok(())
     } else {
         Err(StructureError::Negative { name: name.into(), value, unit })

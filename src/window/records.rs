@@ -4,6 +4,7 @@ use crate::control::Control;
 use crate::exchange::project::file::{ProjectFile, RunTable};
 use crate::exchange::project::frf::FrfTable;
 use crate::exchange::project::{Plan, plan};
+use crate::measurement::unsettled::take_unsettled;
 use crate::measurement::{Run, TransientRun};
 use crate::session::Document as State;
 use std::collections::HashMap;
@@ -50,7 +51,11 @@ impl Records {
         });
         let fitted = file.harmonics.iter().filter_map(|table| self.kept.get(&(table.file.clone(), on)));
         let responses = file.frf.iter().filter_map(|table| self.kept.get(&frf_key(table, on)));
-        recorded.chain(fitted.flatten().cloned()).chain(responses.flatten().cloned()).collect()
+        let mut runs: Vec<Run> =
+            recorded.chain(fitted.flatten().cloned()).chain(responses.flatten().cloned()).collect();
+        // The command line tells of it; here the table of the runs shows their flags.
+        let _ = take_unsettled(&mut runs);
+        runs
     }
 
     /// The decays and transients of a state of the document, as far as they were read.

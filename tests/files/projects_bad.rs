@@ -91,9 +91,12 @@ fn structures() {
     let without = BEAM.replace("depth = 0.004\n", "");
     refused(&without, "p.toml:3: [structure] lacks `depth`; add `depth = 0.004`");
     refused(&BEAM.replace("depth = ", "dept = "), "p.toml:7: [structure] has no key `dept`; did you mean `depth`?");
-    refused(&BEAM.replace("0.56", "inf"), "p.toml:5: `length = inf` is not a usable number; it must be finite");
+    refused(
+        &BEAM.replace("0.56", "inf"),
+        "p.toml:5: `length = inf` is not a usable number; it must be finite, from -1e30 to 1e30",
+    );
     refused(&BEAM.replace("0.56", "\"0.56\""), "p.toml:5: `length` must be a number, not a text");
-    refused(&BEAM.replace("0.56", "-1"), "p.toml:5: length is -1 m: give a positive finite number");
+    refused(&BEAM.replace("0.56", "-1"), "p.toml:5: length is -1 m: give a positive number of at most 1e30");
     refused(
         &BEAM.replace("= 10", "= 0"),
         "p.toml:10: `elements = 0` is not a usable number; it must be between 1 and 10000",
@@ -278,4 +281,20 @@ fn runs_and_settings() {
         plan(&format!("{CHAIN}[simulate]\nchannels = [\"acc@1 [furlong]\"]\n"), Path::new("p.toml")).unwrap_err();
     assert!(message.to_string().starts_with("p.toml:9: "), "{message}");
     assert!(message.to_string().contains("furlong"), "{message}");
+}
+
+#[test]
+fn numbers_beyond_physical_quantities() {
+    let beyond = "is not a usable number; it must be finite, from -1e30 to 1e30";
+    refused(&CHAIN.replace("2.5", "1e300"), &format!("p.toml:5: `masses = 1e300` {beyond}"));
+    let source = |c: &str| format!("[[source]]\nlaw = \"viscous\"\ndofs = [1]\nstate = \"known\"\nc = {c}\n");
+    chain(&source("1e300"), &format!("p.toml:12: `c = 1e300` {beyond}"));
+    assert!(plan(&format!("{CHAIN}{}", source("1e9")), Path::new("p.toml")).is_ok());
+    let correction = |factor: &str| format!("[[structure.correction]]\nwhat = \"stiffness\"\nfactor = {factor}\n");
+    let no_factor = "is not a usable number; it must be from 1e-9 to 1e9";
+    chain(&correction("1e40"), &format!("p.toml:10: `factor = 1e40` {beyond}"));
+    chain(&correction("1e12"), &format!("p.toml:10: `factor = 1000000000000` {no_factor}"));
+    chain(&correction("0"), &format!("p.toml:10: `factor = 0` {no_factor}"));
+    let late = "p.toml:10: `delay = 1000000` is not a usable number; it must be from -60 s to 60 s";
+    chain("[[sensor]]\nchannel = \"acc@1\"\ndelay = 1e6\n", late);
 }

@@ -137,6 +137,12 @@ const WITHIN: f64 = 0.1;
 /// The same of what modal masses say.
 const ROUGHLY: f64 = 0.25;
 
+/// By how much nearer, relative, an amplifier must be than a unit: people mistake units more often, and a model that is off
+/// shows a factor to some per cent, while 10 and the 9.81 of g are 2 % apart.
+const RARER: f64 = 0.01;
+/// Relative distance within which two factors are hardly told apart.
+const ALIKE: f64 = 0.03;
+
 const fn misreading(factor: f64, quantity: Option<Quantity>, why: &'static str) -> Misreading {
     Misreading { factor, quantity, why }
 }
@@ -197,15 +203,25 @@ fn known(name: &str, seen: f64, within: f64, amplifiers: bool) -> Option<f64> {
         .iter()
         .filter(|m| (amplifiers && m.quantity.is_none()) || m.quantity == quantity)
         .filter(|m| distance(m) < within)
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .min_by(|a, b| weighed(distance(a), a).total_cmp(&weighed(distance(b), b)))
         .map(|m| m.factor)
 }
 
-fn reason(name: &str, size: f64) -> Option<&'static str> {
+/// The distance of what is seen from a misreading, further where it is no unit.
+fn weighed(distance: f64, misreading: &Misreading) -> f64 {
+    if misreading.quantity.is_some() { distance } else { distance + RARER }
+}
+
+fn reason(name: &str, size: f64) -> Option<String> {
     let quantity = quantity_of(name);
     let all = misreadings();
     let same = |m: &&Misreading| (m.quantity.is_none() || m.quantity == quantity) && m.factor == size;
-    all.iter().find(same).map(|m| m.why)
+    let found = all.iter().find(same)?;
+    // A unit that no test tells from it.
+    let alike =
+        |m: &&Misreading| m.quantity.is_some() && m.quantity == quantity && (m.factor / size).ln().abs() < ALIKE;
+    let unit = all.iter().filter(|_| found.quantity.is_none()).find(alike);
+    Some(unit.map_or_else(|| found.why.to_owned(), |unit| format!("{}, or {}", found.why, unit.why)))
 }
 
 /// A positive number with three significant digits.
@@ -245,6 +261,10 @@ mod tests {
         assert_eq!(fault(Fault::Common(-1.0), &["force@19"]).words(), "force@19 looks reversed against the motions");
         let pounds = fault(Fault::Common(POUND_FORCE), &["force@19"]).words();
         assert_eq!(pounds, "force@19 reads 4.45 times too large: N read as lbf?");
+        let amplifier = fault(Fault::Factor(0.1), &["acc@5"]).words();
+        assert_eq!(amplifier, "acc@5 reads 10 times too small: an amplifier set to 0.1, or g read as m/s^2?");
+        let laser = fault(Fault::Factor(0.1), &["vel@5"]).words();
+        assert_eq!(laser, "vel@5 reads 10 times too small: an amplifier set to 0.1?");
         let small = fault(Fault::Factor(-1e-3), &["disp@5"]).words();
         assert_eq!(small, "disp@5 looks reversed and reads 1000 times too small: m read as mm, or mm as um?");
     }
@@ -252,6 +272,8 @@ mod tests {
     #[test]
     fn only_factors_that_somebody_misreads_are_known() {
         assert_eq!(known_factor("acc@5", 9.6), Some(STANDARD_GRAVITY));
+        assert_eq!(known_factor("acc@5", 0.1007), Some(1.0 / STANDARD_GRAVITY));
+        assert_eq!(known_factor("acc@5", 0.1), Some(0.1));
         assert_eq!(known_factor("disp@5", 1010.0), Some(1e3));
         assert_eq!(known_factor("vel@5", 1.42), None);
         assert_eq!(known_factor("acc@5", 1.2), None);

@@ -71,7 +71,7 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
         unit,
         sign,
         factor,
-        delay: table.number("delay")?,
+        delay: super::keys::delay(table)?,
         optional: table.flag("optional")?.unwrap_or(false),
     })
 }

@@ -7,6 +7,10 @@ use super::lines::Lines;
 use super::reader::Table;
 use crate::structure::{Part, Structure};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// Factors that may correct a part: a bolt that is all loose leaves a trace of its stiffness, a clamp that is meant to be rigid has no measure.
+pub(crate) const FACTORS: RangeInclusive<f64> = 1e-9..=1e9;
 
 /// Kinds of parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -178,9 +182,9 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
         let what = table.need("what", "what = \"mode\"", what)?;
         let dofs: Vec<_> = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         let factor = table.need("factor", "factor = 1.02", table.number("factor")?)?;
-        if !(factor.is_finite() && factor > 0.0) {
-            let value = factor.to_string();
-            return Err(table.error("factor", Problem::OutOfRange { key: "factor".into(), value, range: "above 0" }));
+        if !FACTORS.contains(&factor) {
+            let (key, value, range) = ("factor".to_owned(), factor.to_string(), "from 1e-9 to 1e9");
+            return Err(table.error("factor", Problem::OutOfRange { key, value, range }));
         }
         let (elements, mode) = (super::keys::elements(&table)?, table.whole("mode")?);
         let node = table.label("node")?.map(Label);

@@ -21,6 +21,21 @@ pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectErr
     }
 }
 
+/// Longest delay of a channel, s: filters and cables take less than a second, two recorders beside each other some.
+const LONGEST_DELAY: f64 = 60.0;
+
+/// How late a channel is recorded, s.
+pub(super) fn delay(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
+    let given = table.number("delay")?;
+    match given.filter(|value| value.abs() > LONGEST_DELAY) {
+        Some(value) => {
+            let (key, value, range) = ("delay".to_owned(), value.to_string(), "from -60 s to 60 s");
+            Err(table.error("delay", Problem::OutOfRange { key, value, range }))
+        }
+        None => Ok(given),
+    }
+}
+
 /// A number that must be positive.
 pub(super) fn above_zero(
     table: &Table<'_>,

@@ -8,6 +8,7 @@ use crate::exchange::Project;
 use crate::exchange::records::base_channel;
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::ChannelCorrection;
+use crate::measurement::unsettled::take_unsettled;
 use crate::measurement::{Channel, Flag, Kind, Quantity, Run, TransientLabel, TransientRun, TransientRunError};
 use crate::structure::StructureKind;
 use std::path::Path;
@@ -41,6 +42,7 @@ impl Plan {
             runs.extend(chosen.runs);
             remarks.extend(chosen.remarks);
         }
+        remarks.extend(take_unsettled(&mut runs));
         self.check_sensors(&runs, &transient_runs)?;
         Ok(Project {
             title: self.file.project.title,

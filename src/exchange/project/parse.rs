@@ -265,7 +265,7 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
     for table in root.tables("sensor", "[[sensor]]")? {
         table.only(&["channel", "delay", "gain"])?;
         let channel = table.need("channel", "channel = \"acc@7\"", table.text("channel")?)?;
-        let (delay, gain) = (table.number("delay")?, table.number("gain")?);
+        let (delay, gain) = (super::keys::delay(&table)?, table.number("gain")?);
         if delay.is_none() && gain.is_none() {
             table.need::<()>("gain", "gain = 1.02` or `delay = 1e-4", None)?;
         }

@@ -1,6 +1,7 @@
 //! Reads values from parsed TOML by key, with the line of everything that is wrong.
 
 use super::error::{Problem, ProjectError};
+use crate::math::GREATEST;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -114,7 +115,7 @@ impl<'a> Table<'a> {
         self.origin.error(value.span().start, problem)
     }
 
-    /// A finite number, written as integer or float.
+    /// A number that may be a physical quantity, written as integer or float.
     pub(super) fn number(&self, key: &str) -> Result<Option<f64>, ProjectError> {
         self.get(key).map(|value| self.as_number(key, value)).transpose()
     }
@@ -125,8 +126,8 @@ impl<'a> Table<'a> {
             DeValue::Float(x) => (x.as_str().parse().ok(), x.as_str().to_owned()),
             _ => return Err(self.wrong(key, value, "a number")),
         };
-        let range = Problem::OutOfRange { key: key.into(), value: text, range: "finite" };
-        number.filter(|x: &f64| x.is_finite()).ok_or_else(|| self.origin.error(value.span().start, range))
+        let range = Problem::OutOfRange { key: key.into(), value: text, range: "finite, from -1e30 to 1e30" };
+        number.filter(|x: &f64| x.abs() <= GREATEST).ok_or_else(|| self.origin.error(value.span().start, range))
     }
 
     /// A whole number.
