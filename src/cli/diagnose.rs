@@ -129,8 +129,13 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
             TestKind::Release { displacement_m } => Some(displacement_m),
             _ => None,
         };
+        let (base_times, driven) = match test.kind {
+            TestKind::Base { times } => (Some(times), false),
+            _ => (None, true),
+        };
         json!({"kind": test.kind.word(), "frequency_hz": test.frequency_hz, "displacement_m": displacement_m,
-               "force_dof": structure.label(test.force_dof), "force_n": test.force, "why": test.why})
+               "force_dof": driven.then(|| structure.label(test.force_dof)), "force_n": driven.then_some(test.force),
+               "base_times": base_times, "why": test.why})
     };
     let neighbours = structure.coupled().map(|coupled| neighbours(structure, &coupled));
     json!({

@@ -15,17 +15,13 @@ use anyhow::Context;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Error of an undamped model, relative, from which on the comparison tells only that its damping is missing.
-const MEANINGLESS: f64 = 10.0;
 /// Probability from which on a suggestion names what `identify` found; below, it is as good as excluded.
 const NAMED: f64 = 0.01;
-/// Error of a model that predicts no motion at all.
-const NO_BETTER: f64 = 1.0;
 
 /// Whether what `identify` finds is to be made known first: where `asked`, or where the model has no damping, candidates for
-/// it, and an error that says nothing else.
+/// it, and a resonance whose width it lacks.
 pub(super) fn is_needed(project: &Project, asked: bool, control: &Control) -> bool {
-    asked || is_meaningless(project, control)
+    asked || identified::lacks_damping(project, control)
 }
 
 /// Makes what `identify` finds known in `project`, where that is needed. Gives what was taken over.
@@ -61,17 +57,6 @@ pub(super) fn identify_known(
     let taken = identified::take_over(project, &outcome);
     eprintln!("{}", sentence(project, &taken, asked));
     Ok(taken)
-}
-
-/// Whether nothing damps the model, something might, and it is at a resonance without it.
-fn is_meaningless(project: &Project, control: &Control) -> bool {
-    let damps = |s: &Source| s.effect.dissipates();
-    let known = problem(project).known().iter().any(damps);
-    let sought = project.sources.iter().any(|s| identified::is_sought(s) && damps(s));
-    let error = || compare(&problem(project), &[], control).map_or(0.0, |c| c.error);
-    // Of frequency responses nothing is looked for but what is in proportion to the motion, as what `identify` finds.
-    let linear = project.runs.iter().filter(|run| run.is_used()).all(|run| run.per_unit_force);
-    !known && sought && error() > if linear { NO_BETTER } else { MEANINGLESS }
 }
 
 /// What `identify` finds among the candidates of a project, where it explains the runs at least as well as the first suggestion

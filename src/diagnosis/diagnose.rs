@@ -3,9 +3,10 @@
 use crate::control::Control;
 use crate::diagnosis::channels::{self, ChannelFault};
 use crate::diagnosis::errors_on_all_runs;
-use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
+use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
+use crate::diagnosis::residual::energy_balance::scaled_factors;
 use crate::diagnosis::residual::levels::sessions;
-use crate::diagnosis::residual::prediction::Predictor;
+use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
@@ -87,6 +88,27 @@ pub(crate) fn place_of_force(problem: &Problem, control: &Control) -> Result<Opt
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor.clone(), &data, control, &|_| {})?;
     Ok(channels::place_of_force(&predictor, &data, &reference.predictions))
+}
+
+/// Whether a steady run of `problem` is within the width of a resonance that its model lacks: the motion is nearer to a quarter of a
+/// period off the predicted one than to it or its opposite. Between the half-power points of a mode the response lags so far behind
+/// that of the model without its damping (Ewins, *Modal Testing*, 2.3).
+///
+/// # Errors
+/// As [`faults_of_channels`].
+pub(crate) fn lacks_width(problem: &Problem, control: &Control) -> Result<bool, DiagnosisError> {
+    let data = Data::new(problem)?;
+    let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
+    let predictions = match ReferenceModel::new(predictor, &data, control, &|_| {}) {
+        Ok(reference) => reference.predictions,
+        // At its natural frequencies a model without damping has no response at all.
+        Err(DiagnosisError::Response { .. }) => return Ok(true),
+        Err(error) => return Err(error),
+    };
+    let turned = |(run, prediction): (&RunData, &RunPrediction)| {
+        scaled_factors(run, prediction).first().is_some_and(|z| z.im.abs() > z.re.abs())
+    };
+    Ok(data.runs.iter().zip(&predictions).any(turned))
 }
 
 /// What is found on the runs of `data`.

@@ -74,6 +74,11 @@ pub struct Step {
 pub enum TestKind {
     /// Steady state under a sine.
     Steady,
+    /// Steady state under a sine of the base that the structure stands on.
+    Base {
+        /// Its acceleration over the largest of the runs.
+        times: f64,
+    },
     /// A decay after a DOF is let go from this displacement, m.
     Release {
         /// Displacement of the DOF, m.
@@ -90,7 +95,7 @@ impl TestKind {
     /// Word in files.
     pub fn word(self) -> &'static str {
         match self {
-            Self::Steady => "steady",
+            Self::Steady | Self::Base { .. } => "steady",
             Self::Release { .. } => "decay",
             Self::Alike { .. } => "transient",
         }
@@ -104,7 +109,7 @@ pub struct NextTest {
     pub kind: TestKind,
     /// Frequency of a sine, Hz; of other tests that of the motion that stands out.
     pub frequency_hz: f64,
-    /// Row of the DOF to be driven, or to be let go.
+    /// Row of the DOF to be driven, or to be let go; on a moving base that of its largest load.
     pub force_dof: usize,
     /// Amplitude of the force, N; of a release the one that holds the DOF there.
     pub force: f64,

@@ -81,6 +81,10 @@ pub fn next_test(structure: &Structure, test: &NextTest) -> String {
     let force = format::with_unit(test.force, "N");
     match test.kind {
         TestKind::Steady => format!("{} with {force} at DOF {at}", format::with_unit(test.frequency_hz, "Hz")),
+        TestKind::Base { times } => {
+            let frequency = format::with_unit(test.frequency_hz, "Hz");
+            format!("{frequency} with {times} times the acceleration of the base that was the largest")
+        }
         TestKind::Release { displacement_m } => {
             format!("a decay released from {} at DOF {at}, held by {force}", format::prefixed(displacement_m, "m"))
         }

@@ -10,7 +10,7 @@ use crate::diagnosis::{self, Comparison, Diagnosis};
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::identify::Outcome;
-use crate::session::identified::take_over;
+use crate::session::identified::{lacks_damping, take_over};
 use crate::session::time_limit::answer_within;
 use crate::session::validation::{
     compared_with_records, diagnosed, diagnosed_from_records, missing_force, only_records, problem,
@@ -84,8 +84,8 @@ impl<'a> Content<'a> {
         let compared =
             |p: &Project| diagnosis::compare(&problem(p), &[], control).map(Arc::new).map_err(|e| e.to_string());
         let as_it_is = known.comparison.unwrap_or_else(|| compared(p));
-        let lacks_damping = as_it_is.as_ref().is_ok_and(|c| c.error > HOPELESS);
-        let with_identified = outcome.as_ref().ok().filter(|_| lacks_damping).and_then(|o| with_identified(p, o));
+        let found = outcome.as_ref().ok().filter(|_| as_it_is.is_ok() && lacks_damping(p, control));
+        let with_identified = found.and_then(|o| with_identified(p, o));
         let (p, comparison, told) = match &with_identified {
             Some((p, _)) => (p, compared(p), None),
             None => (p, as_it_is, known.diagnosis.filter(|_| !only_records(p))),

@@ -1,9 +1,12 @@
 //! Takes over what `identify` finds: sources that were sought become known at their coefficients, so that a model whose
 //! damping was still to be found can be compared with the measurement.
 
+use crate::control::Control;
+use crate::diagnosis::diagnose::lacks_width;
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::Outcome;
+use crate::session::validation::problem;
 
 /// Makes the sources that `outcome` found known in `project` and the others that were sought inactive; a source that is
 /// known there already gets the coefficient on top of its own. Gives what was taken over.
@@ -22,6 +25,16 @@ pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
         }
     }
     taken
+}
+
+/// Whether a project states no damping at all, asks for it, and has runs within the width of a resonance: of what else its model
+/// lacks nothing can be said before that is identified.
+pub fn lacks_damping(project: &Project, control: &Control) -> bool {
+    let damps = |source: &Source| source.effect.dissipates();
+    let sought = project.sources.iter().any(|source| is_sought(source) && damps(source));
+    let problem = problem(project);
+    let known = problem.known().iter().any(damps);
+    !known && sought && project.structure.matrices().is_some() && lacks_width(&problem, control).unwrap_or(false)
 }
 
 /// Whether a source is to be found.

@@ -7,10 +7,13 @@ use crate::effects::{Effect, Source};
 /// the same by another name.
 pub(crate) fn is_allowed(excluded: &[Source], source: &Source, deviations: &[f64]) -> bool {
     let out = |law: Effect| excluded.iter().any(|other| other.effect == law && other.place.is_same(&source.place));
-    let undetermined = |(d, p): (&f64, &f64)| d.is_nan() || *d >= p.abs();
-    let open = deviations.iter().zip(&source.parameters).any(undetermined);
-    let disguise = open && source.effect.limits().any(out);
+    let disguise = is_undetermined(source, deviations) && source.effect.limits().any(out);
     !(disguise || out(source.effect))
+}
+
+/// Whether an effect has a parameter whose deviation is as large as itself.
+pub(crate) fn is_undetermined(source: &Source, deviations: &[f64]) -> bool {
+    source.parameters.iter().zip(deviations).any(|(p, d)| d.is_nan() || *d >= p.abs())
 }
 
 /// Whether the set `simple` differs from `set` in no more than laws that are limits of those in `set`, at the same places.

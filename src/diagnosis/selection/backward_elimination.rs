@@ -3,11 +3,12 @@
 
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
+use crate::diagnosis::selection::candidate_order::is_open;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{EVIDENCE, FittedSets, Found, agrees, distinct, nearly};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::updated::REFITTED;
-use crate::diagnosis::selection::weighing::{Weighed, cost, is_open, weighed};
+use crate::diagnosis::selection::weighing::{Weighed, cost, weighed};
 use crate::effects::Source;
 
 /// Rounds in which a model converges beside the effects that are left when another is taken away.
@@ -166,6 +167,23 @@ mod tests {
         assert!(matches!(left.as_slice(), [only] if only.is_same(&hidden())), "{left:?}");
         assert!((left[0].parameters[0] / 4e6 - 1.0).abs() < 0.02, "{left:?}");
         assert!((ground - 1.02).abs() < 2e-3, "{ground}");
+    }
+
+    /// A fit whose model has gone astray, begun again from the model as it was stated, settles where the records have it.
+    #[test]
+    fn a_fit_that_is_begun_again_does_not_depend_on_where_its_model_was() {
+        with_stated(&[hidden()], |stated| {
+            let mut updating = stated.linearisation.updating.clone();
+            updating.values[0] += 0.15;
+            let astray = stated.updated(&updating, &[hidden()], &Vec::new()).unwrap();
+            let from = astray.estimator().fit(&[hidden()], REFITTED, &SEARCH, &Vec::new()).unwrap();
+            let (reference, fit) = astray.begun_again(&from).unwrap().unwrap();
+            assert!(cost(&reference, Some(&fit)) < cost(&astray, Some(&from)));
+            assert!((fit.effects[0].parameters[0] / 4e6 - 1.0).abs() < 0.02, "{:?}", fit.effects);
+            let structure = reference.linearisation.updating.structure(reference.predictor.stated().0);
+            let ground = structure.matrices().unwrap().stiffness[(0, 0)] - 1e4;
+            assert!((ground / 2e4 - 1.02).abs() < 2e-3, "{ground}");
+        });
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{FittedSets, Found, same_set};
+use crate::diagnosis::selection::found::{FittedSets, Found, explains_by_scatter, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
@@ -49,7 +49,9 @@ impl Outcome<'_> {
     pub(crate) fn conclude(&self, mut diagnosis: Diagnosis) -> Result<Diagnosis, DiagnosisError> {
         let reference = &self.reference;
         let by_size = &self.found.by_size;
-        let Some(top) = by_size.last() else { return self.conclude_without_effects(diagnosis) };
+        let Some(top) = by_size.last().map(FittedSets::without_needless) else {
+            return self.conclude_without_effects(diagnosis);
+        };
         let best = &top.fits[0];
         let quiet = ReferenceModel {
             predictions: reference.predictions.clone(),
@@ -62,7 +64,7 @@ impl Outcome<'_> {
         let promised = self.promised(&quiet, best)?;
         let best = promised.as_ref().unwrap_or(best);
         let misfit = best.chi_square / reference.count().max(1) as f64;
-        let trust = if misfit > TOLERATED { UNTRUSTED } else { 1.0 };
+        let trust = if misfit > TOLERATED || !quiet.linearisation.updating.is_believable() { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
         let ordered = order(&quiet.estimator(), best, &by_size[0])?;
         for set in &ordered {
@@ -71,7 +73,10 @@ impl Outcome<'_> {
         }
         let structure = quiet.of_structure()?;
         let alike_runs = Estimator { predictor: &structure, ..quiet.estimator() };
-        let final_set = added(ordered.last().unwrap_or(best), top.scale);
+        let mut final_set = added(ordered.last().unwrap_or(best), top.scale);
+        let helps =
+            |item: &Added| ordered.iter().position(|set| set.effects.iter().any(|effect| effect.is_same(&item.source)));
+        final_set.sort_by_key(helps);
         for item in &final_set {
             let alone = alone(&quiet.estimator(), &item.source, best, &by_size[0])?;
             let probability = containing(&top.fits, &weights, &item.source);
@@ -86,7 +91,8 @@ impl Outcome<'_> {
                 indistinguishable_from: alike(&top.fits, best, &item.source, top.scale),
             });
         }
-        alternatives(&alike_runs, top, &weights, &mut diagnosis)?;
+        alternatives(&alike_runs, &top, &weights, &mut diagnosis)?;
+        diagnosis.suggestions.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
         let rival = top.fits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
         diagnosis.next_test = match rival {
@@ -127,7 +133,8 @@ impl Outcome<'_> {
         // of the error beyond the noise.
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
-        let enough = misfit < TOLERATED && told;
+        let scattered = self.found.updated && explains_by_scatter(error, diagnosis.noise_floor);
+        let enough = misfit < TOLERATED && told && !scattered;
         diagnosis.verdict = match (self.found.updated, enough) {
             (true, true) => Verdict::Detuned,
             (false, true) => Verdict::Adequate,

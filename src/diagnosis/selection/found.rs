@@ -1,5 +1,6 @@
 //! Fits that a search keeps on its way, and when they agree with the data.
 
+use crate::diagnosis::candidates::special_cases::{is_limit, is_undetermined};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
@@ -20,6 +21,11 @@ pub(super) const AGREES: f64 = 4.0;
 pub(super) const LAST: f64 = 4e-4;
 const LAST_ERROR: f64 = 2e-3;
 
+/// Error of the response, and how many noise floors, up to which runs of one structure scatter about any model of it, whose resonances
+/// move from run to run. The laboratory projects that are only detuned leave a twentieth.
+const SCATTERED: f64 = 0.3;
+const SCATTERED_FLOORS: f64 = 10.0;
+
 /// Sets of effects of one size, fitted, best first.
 pub(crate) struct FittedSets {
     pub fits: Vec<FittedModel>,
@@ -29,6 +35,27 @@ pub(crate) struct FittedSets {
     pub noise: Arc<NoiseModel>,
     /// Probability of each.
     pub probabilities: Vec<f64>,
+}
+
+impl FittedSets {
+    /// These without the sets that differ from the best by wider laws of which the data do not know a parameter: they are the best by
+    /// another name, and it has their probability.
+    pub(super) fn without_needless(&self) -> Self {
+        let mut kept =
+            Self { fits: Vec::new(), probabilities: Vec::new(), scale: self.scale, noise: self.noise.clone() };
+        for (fit, &probability) in self.fits.iter().zip(&self.probabilities) {
+            let undetermined = || fit.effects.iter().zip(&fit.deviations).any(|(e, d)| is_undetermined(e, d));
+            let wider = |best: &FittedModel| is_limit(&best.effects, &fit.effects) && undetermined();
+            match kept.probabilities.first_mut().filter(|_| wider(&self.fits[0])) {
+                Some(first) => *first += probability,
+                None => {
+                    kept.fits.push(fit.clone());
+                    kept.probabilities.push(probability);
+                }
+            }
+        }
+        kept
+    }
 }
 
 /// Where a search ended.
@@ -68,6 +95,12 @@ pub(crate) fn fits_well(reference: &ReferenceModel, found: &Found, fit: &FittedM
     agrees(reference, fit.chi_square, fit.parameters) || nearly(reference, fit, found.before)
 }
 
+/// Whether a model with this error, all runs alike, explains them by what is free from run to run alone, however small its squared
+/// residual is beside that freedom.
+pub(super) fn explains_by_scatter(error: f64, noise_floor: f64) -> bool {
+    error > SCATTERED && error > SCATTERED_FLOORS * noise_floor
+}
+
 /// The best fit of every set.
 pub(crate) fn distinct(fits: Vec<FittedModel>) -> Vec<FittedModel> {
     let mut kept: Vec<FittedModel> = Vec::with_capacity(fits.len());
@@ -79,6 +112,19 @@ pub(crate) fn distinct(fits: Vec<FittedModel>) -> Vec<FittedModel> {
     kept
 }
 
+/// Whether two sets are of the same effects at the same places.
 pub(crate) fn same_set(a: &[Source], b: &[Source]) -> bool {
     a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| x.is_same(y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::explains_by_scatter;
+
+    /// What laboratories leave that are only detuned is no scatter, how many floors it may be; nor is what is noise.
+    #[test]
+    fn runs_scatter_by_a_share_of_the_response() {
+        assert!(explains_by_scatter(0.806, 0.0066));
+        assert!(!explains_by_scatter(0.047, 0.0004) && !explains_by_scatter(0.5, 0.4));
+    }
 }

@@ -6,7 +6,7 @@
 //! pinning      sqrt [ (N + sum_c Re a_c^H a_c / s_c^2)^-1 ]_kk,     N the information so far, a_c = dX_c / d theta
 //! ```
 
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, RunData};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::result::{NextTest, TestKind};
 use crate::diagnosis::selection::fitted_model::FittedModel;
@@ -14,7 +14,7 @@ use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::effects::{Effect, Kind, Source};
 use crate::math::least_squares::solve_symmetric;
-use crate::response::harmonic_balance::{Excitation, Response};
+use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
 use dashpot_numerics::transposed_product;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
@@ -27,11 +27,37 @@ const STEP: f64 = 1e-3;
 /// Least factor by which a test must narrow a parameter down to be worth naming.
 const WORTH: f64 = 1.3;
 
-/// A sine that the exciter could make.
+/// Difference of the ratios of two forces from run to run, relative, up to which one cause makes both: that of two exciters is noise.
+const ONE_CAUSE: f64 = 1e-6;
+
+/// A sine that the exciter, or the base that the structure stands on, could make.
 struct Trial {
     excitation: Excitation,
     dof: usize,
     force: f64,
+    /// Of a base: motion over that of the run in which it moves most.
+    times: Option<f64>,
+}
+
+/// The forces of a base that drives the structure where it moves most, each with its DOF; none where exciters do.
+fn base_forces(reference: &ReferenceModel) -> Option<Vec<(usize, c64)>> {
+    let fundamentals = |run: &RunData| -> Option<Vec<(usize, c64)>> {
+        run.forces.iter().map(|f| f.measured.first().map(|first| (f.dof, *first))).collect()
+    };
+    let runs = reference.data.runs.iter().map(fundamentals).collect::<Option<Vec<_>>>()?;
+    let size = |forces: &[(usize, c64)]| forces.iter().map(|(_, f)| f.norm_sqr()).sum::<f64>();
+    let most = runs.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let largest = (0..most.len()).max_by(|&a, &b| most[a].1.norm().total_cmp(&most[b].1.norm()))?;
+    let in_proportion = |forces: &Vec<(usize, c64)>| {
+        forces.len() == most.len() && {
+            let factor = forces[largest].1 / most[largest].1;
+            let near = |(f, m): (&(usize, c64), &(usize, c64))| {
+                f.0 == m.0 && (f.1 - factor * m.1).norm() < ONE_CAUSE * forces[largest].1.norm()
+            };
+            forces.iter().zip(most).all(near)
+        }
+    };
+    (runs.len() > 1 && most.len() > 1 && runs.iter().all(in_proportion)).then(|| most.clone())
 }
 
 impl Trial {
@@ -42,9 +68,13 @@ impl Trial {
         let sizes = reference.data.runs.iter().flat_map(|r| r.forces.iter().map(|f| (f.dof, f.size())));
         let Some((dof, force)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let omega = |k: usize| 0.9 * low * (1.1 * high / (0.9 * low)).powf(k as f64 / (FREQUENCIES - 1) as f64);
-        let trial = |k: usize, level: f64| {
-            let force = level * force;
-            Self { excitation: Excitation::sine(omega(k), dof, c64::new(force, 0.0)), dof, force }
+        let base = base_forces(reference);
+        let trial = |k: usize, level: f64| match &base {
+            Some(forces) => Self { excitation: of_base(omega(k), forces, level), dof, force, times: Some(level) },
+            None => {
+                let force = level * force;
+                Self { excitation: Excitation::sine(omega(k), dof, c64::new(force, 0.0)), dof, force, times: None }
+            }
         };
         (0..FREQUENCIES).flat_map(|k| LEVELS.map(|level| trial(k, level))).collect()
     }
@@ -55,9 +85,16 @@ impl Trial {
     }
 
     fn named(&self, why: String) -> NextTest {
-        let (kind, frequency_hz) = (TestKind::Steady, self.excitation.omega / TAU);
+        let kind = self.times.map_or(TestKind::Steady, |times| TestKind::Base { times });
+        let frequency_hz = self.excitation.omega / TAU;
         NextTest { kind, frequency_hz, force_dof: self.dof, force: self.force, why }
     }
+}
+
+/// So many times the forces of a base.
+fn of_base(omega: f64, forces: &[(usize, c64)], times: f64) -> Excitation {
+    let force = |&(dof, amplitude): &(usize, c64)| HarmonicForce { dof, mean: 0.0, harmonics: vec![amplitude * times] };
+    Excitation { omega, forces: forces.iter().map(force).collect() }
 }
 
 /// The test that separates the effects `best` from those of `rival`; none if nothing does.

@@ -87,6 +87,22 @@ impl<'a> ReferenceModel<'a> {
         reference.converged(fit, &SEARCH, UPDATES)
     }
 
+    /// The effects of `fit`, as they are there, with a model that is moved beside them from where it was stated on, and then both: a
+    /// descent in which model and effects were far off together, as beside friction that sticks, may have ended in a local minimum.
+    pub(super) fn begun_again(
+        &self,
+        fit: &FittedModel,
+    ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let updating = Updating::all(stated, known, self.data);
+        let settings = settings_for(fit, self.count(), &SEARCH);
+        let Some((_, reference)) = self.stepped(updating, (&fit.effects, &fit.starts), settings)? else {
+            return Ok(None);
+        };
+        let again = reference.refitted(fit, settings)?;
+        reference.converged(again, &SEARCH, UPDATES).map(Some)
+    }
+
     /// `count` candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then.
     fn all_refined<'s>(
         &self,

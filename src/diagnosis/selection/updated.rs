@@ -175,10 +175,11 @@ impl<'a> ReferenceModel<'a> {
     pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let rigid = Updating::all(stated, known, self.data);
-        let mut best = self.stepped(rigid.clone())?;
+        let stepped = |updating: Updating| self.stepped(updating, (&[], &Vec::new()), &FINAL);
+        let mut best = stepped(rigid.clone())?;
         if best.as_ref().is_none_or(|(left, _)| *left > SUPPORTED * self.count() as f64) {
             for updating in rigid.giving_way() {
-                let other = self.stepped(updating)?;
+                let other = stepped(updating)?;
                 let lower = |(left, _): &(f64, _)| best.as_ref().is_none_or(|(least, _)| left < least);
                 best = if other.as_ref().is_some_and(lower) { other } else { best };
             }
@@ -189,13 +190,18 @@ impl<'a> ReferenceModel<'a> {
         }
     }
 
-    /// The model fitted in limited steps from `updating` on, with its squared residual at its reference; none where there is no
-    /// such model.
-    fn stepped(&self, mut updating: Updating) -> Result<Option<(f64, ReferenceModel<'a>)>, DiagnosisError> {
+    /// The model fitted in limited steps from `updating` on beside `effects`, which are as they are, with its squared residual at its
+    /// reference; none where there is no such model.
+    pub(super) fn stepped(
+        &self,
+        mut updating: Updating,
+        (effects, starts): (&[Source], &Starts),
+        settings: &Settings,
+    ) -> Result<Option<(f64, ReferenceModel<'a>)>, DiagnosisError> {
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;
         for step in 0..STEPS {
-            let Some(reference) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { break };
-            let rows = reference.estimator().at_reference(&reference.predictions);
+            let Some(reference) = if_possible(self.updated_as(&updating, effects, starts, settings))? else { break };
+            let rows = reference.estimator().at_reference(&reference.predictions_with(effects, starts, settings)?);
             let here = sum_of_squares(&rows);
             let misfit = (here / self.count() as f64).max(1.0);
             let target = updating.at(&reference.noise.updating.solve_with_misfit(&rows, misfit)).values;

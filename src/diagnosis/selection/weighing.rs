@@ -1,13 +1,12 @@
 //! Candidates with models of their own: ordered by their evidence (what they leave, what their parameters and the freedom of the
 //! model beside them cost), with probabilities by how well they predict runs that are left out.
 
-use super::cross_validation::{exceeds, groups};
-use super::short_list::VOID;
-use crate::diagnosis::candidates::special_cases::is_limit;
+use super::candidate_order::{COARSE, Candidate, is_open, likeliest_first, nearest_first, simplest_first};
+use super::cross_validation::groups;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
-use crate::diagnosis::selection::conclusion::UNEXPLAINED;
+use crate::diagnosis::selection::conclusion::{TOLERATED, UNEXPLAINED};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
@@ -18,7 +17,6 @@ use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::diagnosis::updating::part_error::{is_within_part, part_of, takes_away};
 use crate::diagnosis::updating::scales::Scales;
 use crate::effects::{Constant, Range, Source};
-use crate::math::bootstrap::probabilities;
 use crate::structure::Part;
 
 /// Weighed candidates.
@@ -44,40 +42,26 @@ impl<'a> Weighed<'a> {
     }
 }
 
-/// A candidate with the model that was updated beside it.
-struct Candidate<'a> {
-    /// Its evidence, the smaller the better.
-    cost: f64,
-    reference: ReferenceModel<'a>,
-    fit: FittedModel,
-    /// Logarithms of its predictive densities of groups of runs that are left out.
-    densities: Vec<f64>,
-}
-
 /// Times that model, effects and scales of the best are settled in turn.
 const SETTLED_AGAIN: usize = 2;
 /// Rounds of each.
 const UPDATES: usize = 6;
 /// Evidence behind the best, with the scales of the search, beyond which no other scales would make a candidate the best.
 const LIGHT: f64 = 300.0;
-/// Squared residual per datum of the best from which on candidates within so many times what it leaves are weighed too.
-const COARSE: f64 = 3.0;
+/// How many times what the best leaves, where that is no noise, others may leave which are weighed too.
 const HEAVY: f64 = 2.0;
-/// Share of the error of the first that another leaves where it comes before it.
-const NEARER: f64 = 0.4;
 /// Candidates whose scales are estimated.
 const WEIGHED: usize = 6;
 /// Laws that the best may have been taken for which are weighed, and rounds in which model and law are settled for each.
 const WIDER: usize = 2;
 const WIDER_UPDATES: usize = 3;
-/// Difference of the logarithms of predictive densities, summed over the groups, below which two laws say the same.
-const SAME: f64 = 0.5;
 /// Candidates that are settled to the end: where the best turns out to be nothing, the next.
 const FINISHED: usize = 2;
 
 /// Weighs fitted candidates, each with the model that was updated beside it.
 pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(by_simplest_name(fits)?)?;
+    begin_again(&mut all)?;
     let wider = all.first().map_or(Ok(Vec::new()), generalisations_of)?;
     let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));
     let wider: Vec<Candidate> = wider.into_iter().filter(fresh).collect();
@@ -93,7 +77,7 @@ pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Op
     simplest_first(&mut all);
     let unit = nearest_first(&mut all);
     for _ in 0..FINISHED.min(all.len()) {
-        let probabilities = probabilities_of(&all, unit);
+        let probabilities = likeliest_first(&mut all, unit);
         let Candidate { reference, fit, .. } = all.remove(0);
         let (reference, mut fit) = finished(reference, fit)?;
         fit.error = error_of(&reference, &fit)?;
@@ -117,18 +101,35 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
     let (control, near) = (first.control, bound_beside(first, best));
     let most = if control.is_late() { FINISHED } else { WEIGHED };
     let count = fits.iter().take(most).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
-    let likely = |k: usize| {
-        let (own, fit) = &fits[k];
-        let (reference, scaled) = own.with_likely_scales(Some(fit), &SEARCH)?;
-        let scaled = scaled.unwrap_or_else(|| fit.clone());
-        if cost(&reference, Some(&scaled)) < cost(own, Some(fit)) {
-            return candidate(reference, scaled);
-        }
-        candidate(own.with_scales(own.linearisation.updating.scales), fit.clone())
-    };
-    let mut all = control.map(count, likely).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut all = control.map(count, |k| scaled(&fits[k])).into_iter().collect::<Result<Vec<_>, _>>()?;
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     Ok(all)
+}
+
+/// A candidate with the scales that are most likely beside it, where they bring evidence.
+fn scaled<'a>((own, fit): &(ReferenceModel<'a>, FittedModel)) -> Result<Candidate<'a>, DiagnosisError> {
+    let (reference, scaled) = own.with_likely_scales(Some(fit), &SEARCH)?;
+    let scaled = scaled.unwrap_or_else(|| fit.clone());
+    if cost(&reference, Some(&scaled)) < cost(own, Some(fit)) {
+        return candidate(reference, scaled);
+    }
+    candidate(own.with_scales(own.linearisation.updating.scales), fit.clone())
+}
+
+/// The best of the candidates, where it leaves more than a model of this structure would, in its stead as it is when it is begun again
+/// beside the model as it was stated, where that leaves less.
+fn begin_again(all: &mut [Candidate]) -> Result<(), DiagnosisError> {
+    let Some(best) = all.first_mut() else { return Ok(()) };
+    let left = best.fit.chi_square / best.reference.count() as f64;
+    if left < TOLERATED || best.reference.control.is_late() {
+        return Ok(());
+    }
+    let Some(again) = if_possible(best.reference.begun_again(&best.fit))?.flatten() else { return Ok(()) };
+    let again = scaled(&again)?;
+    if again.cost < best.cost && is_effect(&again.reference, &again.fit) {
+        *best = again;
+    }
+    Ok(())
 }
 
 /// Evidence, with the scales of the search, beyond which no other scales would make a candidate the best beside `best`.
@@ -231,66 +232,6 @@ fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisEr
     Ok(limits)
 }
 
-/// Puts the simplest law first that the best contains as a limit, unless the best predicts runs that are left out better than it
-/// by more than may be by chance.
-fn simplest_first(all: &mut [Candidate]) {
-    while let Some(best) = all.first() {
-        let simpler = |c: &Candidate| {
-            c.fit.parameters < best.fit.parameters
-                && is_limit(&c.fit.effects, &best.fit.effects)
-                && !exceeds(&best.densities, &c.densities)
-        };
-        let Some(k) = all.iter().position(simpler) else { break };
-        all[..=k].rotate_right(1);
-    }
-}
-
-/// Puts the candidate first that comes nearest to the measurement, where what the first leaves is no noise. Returns the squared residual
-/// per datum in units of which predictions are weighed: one, but of what is no noise all that the first leaves.
-fn nearest_first(all: &mut [Candidate]) -> f64 {
-    let Some(first) = all.first() else { return 1.0 };
-    let left = first.fit.chi_square / first.reference.count() as f64;
-    let errors: Vec<f64> = all.iter().map(|c| c.fit.error).collect();
-    let Some(k) = nearer(left, &errors) else { return 1.0 };
-    all[..=k].rotate_right(1);
-    left
-}
-
-/// Which of candidates with these errors, as `compare` shows them, comes before the first, which leaves so much of the squared residual
-/// per datum. What is an error of the model is weighed by evidence as if it were noise: with all scales at their bounds, corrections and
-/// what is free from run to run make any law fit.
-fn nearer(left: f64, errors: &[f64]) -> Option<usize> {
-    let first = errors.first().filter(|_| left > COARSE)?;
-    let nearest = (1..errors.len()).min_by(|&a, &b| errors[a].total_cmp(&errors[b]))?;
-    (errors[nearest] < NEARER * first).then_some(nearest)
-}
-
-/// Probability of each candidate: by how it predicts, and by the share of what its parameters might have been that explains the
-/// data. A neighbour of the first that predicts as well shares with it, the less the more closely its parameters had to be
-/// chosen; what contains the first and predicts the same, or has a parameter that the data do not know, is the first by another
-/// name. Logarithms of densities count in units of `unit`.
-fn probabilities_of(all: &[Candidate], unit: f64) -> Vec<f64> {
-    let in_units = |c: &Candidate| c.densities.iter().map(|density| density / unit).collect();
-    let densities: Vec<Vec<f64>> = all.iter().map(in_units).collect();
-    let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::posing(&c.fit);
-    let mut list = probabilities(&densities, &all.iter().map(prior).collect::<Vec<f64>>());
-    let Some(first) = all.first() else { return list };
-    let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>();
-    for (k, other) in all.iter().enumerate().skip(1) {
-        let open = || other.fit.effects.iter().zip(&other.fit.deviations).any(|(e, d)| is_open(d, e));
-        let same = || open() || differ(&first.densities, &other.densities) < SAME;
-        if is_limit(&first.fit.effects, &other.fit.effects) && same() {
-            list[0] += std::mem::take(&mut list[k]);
-        }
-    }
-    list
-}
-
-/// Whether an effect has a parameter that the data do not know, which may as well be at a limit.
-pub(super) fn is_open(deviations: &[f64], source: &Source) -> bool {
-    source.parameters.iter().zip(deviations).any(|(p, d)| d.is_nan() || *d >= VOID * p.abs())
-}
-
 /// A candidate with its model, settled in turn with the most likely scales.
 fn finished(
     reference: ReferenceModel<'_>,
@@ -364,18 +305,4 @@ pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64
         None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),
     };
     fit + reference.noise.cost()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::nearer;
-
-    #[test]
-    fn evidence_orders_what_leaves_noise_and_the_error_what_leaves_more() {
-        let errors = [0.6, 0.09, 0.16];
-        assert_eq!(nearer(1.2, &errors), None);
-        assert_eq!(nearer(40.0, &errors), Some(1));
-        assert_eq!(nearer(40.0, &[0.6, 0.3]), None);
-        assert_eq!(nearer(40.0, &[0.6]), None);
-    }
 }
