@@ -127,7 +127,9 @@ impl Outcome<'_> {
         // of the error beyond the noise.
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
-        let enough = misfit < TOLERATED && told;
+        // Nor where all motions together are turned against it by what is no scatter of runs.
+        diagnosis.common_factors = reference.common_factors(&reference.predictions);
+        let enough = misfit < TOLERATED && told && diagnosis.common_factors.is_empty();
         diagnosis.verdict = match (self.found.updated, enough) {
             (true, true) => Verdict::Detuned,
             (false, true) => Verdict::Adequate,

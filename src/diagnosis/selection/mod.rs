@@ -2,6 +2,7 @@
 
 mod backward_elimination;
 mod beside_corrections;
+mod common_factor;
 pub(crate) mod conclusion;
 mod cross_validation;
 pub(crate) mod estimator;
