@@ -9,6 +9,7 @@ use super::{identified, reduction};
 use crate::control::Control;
 use crate::diagnosis::compare::Unpredicted;
 use crate::diagnosis::records::RecordComparison;
+use crate::diagnosis::residual::branch::Branch;
 use crate::diagnosis::residual::breakdown::Group;
 use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison, RunComparison};
 use crate::diagnosis::residual::whiteness::Whiteness;
@@ -161,7 +162,9 @@ fn run_document(project: &Project, run: &RunComparison) -> Value {
         "channels": run.channels.iter().map(channel_document).collect::<Vec<_>>(),
     });
     if let Some(branch) = run.branch {
-        entry["branch"] = json!({"name": branch.name(), "stable": branch.stable, "all": branch.all});
+        entry["branch"] = json!({
+            "name": branch.name(), "stable": branch.stable, "all": branch.all, "unstable": branch.held
+        });
     }
     entry
 }
@@ -210,7 +213,7 @@ fn text(project: &Project, comparison: &Comparison) -> String {
         let worst = worst.map_or_else(String::new, |c| format!("{} {}", c.channel, number(100.0 * c.error)));
         let mut note = if run.used { String::new() } else { "not used".to_owned() };
         if let Some(branch) = run.branch {
-            note.push_str(&format!("{} of {} stable motions", branch.name(), branch.stable));
+            note.push_str(&in_note(branch));
         }
         let frequency = number(source.fit.omega / std::f64::consts::TAU);
         let errors = [run.error, run.energy_error].map(|e| number(100.0 * e));
@@ -226,14 +229,38 @@ fn text(project: &Project, comparison: &Comparison) -> String {
         None => "Without mass and stiffness no response can be predicted: energies are compared.\n",
     };
     format!(
-        "{}\n{lead}\n{}{unpredicted}{parts}\nerror of the {} {} %, noise floor {} %, energy error {} %\n{}",
+        "{}\n{lead}\n{}{}{unpredicted}{parts}\nerror of the {} {} %, noise floor {} %, energy error {} %\n{}",
         project.title,
         table(&rows),
+        held(comparison),
         measure(&project.structure),
         number(100.0 * comparison.error),
         number(100.0 * comparison.noise_floor),
         number(100.0 * comparison.energy_error),
         comparison.whiteness.iter().map(sentence).collect::<String>(),
+    )
+}
+
+/// Which of several motions of the model a run was compared with.
+fn in_note(branch: Branch) -> String {
+    if branch.held {
+        format!("{} of {} motions, unstable under a constant force", branch.name(), branch.all)
+    } else {
+        format!("{} of {} stable motions", branch.name(), branch.stable)
+    }
+}
+
+/// What runs say of their exciter that were compared with a motion which is unstable under a constant force.
+fn held(comparison: &Comparison) -> String {
+    let is_held = |run: &&RunComparison| run.branch.is_some_and(|branch| branch.held);
+    let runs = match comparison.runs.iter().filter(is_held).count() {
+        0 => return String::new(),
+        1 => "1 run is".to_owned(),
+        count => format!("{count} runs are"),
+    };
+    format!(
+        "{runs} of a motion of the model that is unstable under a constant force: an exciter that yields, or a controller of the phase, \
+         held it\n"
     )
 }
 

@@ -9,7 +9,7 @@ use super::table::{number, table};
 use super::{channel_faults, identified, run_differences};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
-use crate::diagnosis::result::{Diagnosis, Suggestion, TestKind};
+use crate::diagnosis::result::{CommonFactor, Diagnosis, Suggestion, TestKind};
 use crate::diagnosis::updating::correction::as_force_gain;
 use crate::display::findings;
 use crate::display::words::title;
@@ -154,6 +154,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "suggestions": channel_faults::suggestions(&diagnosis.channel_faults)
             .chain(diagnosis.suggestions.iter().map(|s| suggestion(structure, s)))
             .collect::<Vec<_>>(),
+        "common_factors": diagnosis.common_factors.iter().map(common_factor).collect::<Vec<_>>(),
         "channel_faults": diagnosis.channel_faults.iter().map(channel_faults::document).collect::<Vec<_>>(),
         "not_looked_for": project.runs.iter().any(|run| run.is_used() && run.per_unit_force)
             .then_some(channel_faults::NO_AMPLITUDE),
@@ -161,6 +162,11 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "corrections": diagnosis.corrections.iter().map(|c| correction(project, c)).collect::<Vec<_>>(),
         "next_test": diagnosis.next_test.iter().map(test).collect::<Vec<_>>(),
     })
+}
+
+/// What all motions have in common against the corrected model at a frequency.
+fn common_factor(factor: &CommonFactor) -> Value {
+    json!({"frequency_hz": factor.frequency_hz, "gain": factor.gain, "lead_deg": factor.lead_deg})
 }
 
 /// Where no lines say which DOFs are neighbours: the pairs that were looked at, and where they come from.
@@ -197,6 +203,9 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         diagnosis.verdict.word()
     );
     lines.extend(findings::searched_runs(diagnosis).map(|sentence| sentence + "\n"));
+    if !diagnosis.common_factors.is_empty() {
+        lines.push_str(&format!("{}\n", findings::sentence(diagnosis)));
+    }
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
     lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {

@@ -6,7 +6,6 @@ use crate::diagnosis::updating::scatter::of_diagnosis;
 use crate::display::run_differences;
 use crate::exchange::Project;
 use crate::session::validation::{only_records, problem};
-use std::f64::consts::TAU;
 
 /// Noise floors from which on what is left is looked into.
 const BEYOND: f64 = 3.0;
@@ -18,9 +17,8 @@ pub(super) fn sentences(project: &Project, diagnosis: &Diagnosis, control: &Cont
     if is_noise || only_records(project) || !diagnosis.channel_faults.is_empty() {
         return Vec::new();
     }
-    let hz = |r: usize| project.runs.get(r).map(|run| run.fit.omega / TAU);
     let scatter = of_diagnosis(&problem(project), diagnosis, control).ok().flatten();
-    scatter.map_or_else(Vec::new, |scatter| run_differences::sentences(&scatter, &hz))
+    scatter.map_or_else(Vec::new, |scatter| run_differences::sentences(&scatter))
 }
 
 /// The same as lines of the table.

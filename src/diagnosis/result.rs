@@ -138,6 +138,9 @@ pub struct Diagnosis {
     pub next_test: Vec<NextTest>,
     /// What the model states wrongly, where the data demand it: corrections that were fitted beside the effects.
     pub corrections: Vec<Correction>,
+    /// Factors that all motions have in common against the corrected model, by frequency, where they are larger than measuring
+    /// chains and models out of tune make them: no correction is the answer then.
+    pub common_factors: Vec<CommonFactor>,
     /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
     pub channel_faults: Vec<ChannelFault>,
     /// Whether the search came to its end before its time was up ([`crate::control::Control::hurry`]).
@@ -145,6 +148,17 @@ pub struct Diagnosis {
     /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
     /// (its errors are of all runs); none where all were.
     pub runs: Vec<usize>,
+}
+
+/// One complex factor that all motions have in common against the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommonFactor {
+    /// Mean frequency of the runs that show it, Hz.
+    pub frequency_hz: f64,
+    /// Measured over predicted amplitude.
+    pub gain: f64,
+    /// Angle by which the measured motions lead, degrees.
+    pub lead_deg: f64,
 }
 
 /// Errors of the records that are not steady.
@@ -180,6 +194,7 @@ impl Diagnosis {
             test_errors: None,
             next_test: Vec::new(),
             corrections: Vec::new(),
+            common_factors: Vec::new(),
             channel_faults: Vec::new(),
             complete: true,
             runs: Vec::new(),

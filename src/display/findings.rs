@@ -107,6 +107,20 @@ pub fn explained(error: f64, noise_floor: f64) -> String {
     format!("Its error of {words} is more than noise alone makes ({floor}), but nothing more is suggested.")
 }
 
+/// What is said where all motions together are turned against the model.
+fn turned(diagnosis: &Diagnosis, error: &str) -> String {
+    let factors = &diagnosis.common_factors;
+    let [first, last] = [factors.first(), factors.last()].map(|factor| {
+        let [lead, hz] = factor.map_or([0.0; 2], |factor| [factor.lead_deg, factor.frequency_hz]);
+        [format::significant(lead, 2), format::significant(hz, 3)]
+    });
+    format!(
+        "The model is wrong by {error}, and no correction turns all motions together against the force: they lead it by {} degrees at {} Hz \
+         and by {} at {} Hz beside the best ones. A high-pass (AC coupling) or a delay of the measuring chain does, or a law that is missing.",
+        first[0], first[1], last[0], last[1]
+    )
+}
+
 /// The verdict as a sentence.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
     sentence_of(diagnosis, [diagnosis.error_before, diagnosis.noise_floor])
@@ -148,6 +162,7 @@ pub fn sentence_of(diagnosis: &Diagnosis, [before, noise_floor]: [f64; 2]) -> St
              time.",
             format::significant(times, 2)
         ),
+        Verdict::Unexplained if !diagnosis.common_factors.is_empty() => turned(diagnosis, &error),
         Verdict::Unexplained => format!(
             "The model is wrong by {error}, {} times the noise, and no law known here mends it: what the best leaves says \
              where to look, at other levels or with more sensors.",

@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod chain;
 mod comparison;
 mod energy_rows;
 mod force_gain;

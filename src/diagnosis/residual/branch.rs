@@ -1,4 +1,11 @@
-//! Which periodic motion was measured, where the model has several: the stable one nearest to the measurement.
+//! Which periodic motion was measured, where the model has several: the stable one nearest to the measurement, or one that is
+//! unstable under a constant force where that is clearly the one.
+//!
+//! Stability is judged with the forces held as they were measured. An exciter of finite impedance changes its force as the
+//! structure moves, a phase-locked loop and control-based continuation do it on purpose: with either in the loop the motion
+//! between the two folds of a response, unstable under a constant force, is stable and is measured like any other (Sieber and
+//! Krauskopf 2008; Peter and Leine 2017). A model that is a little wrong may pass near any motion by chance, most of all about a
+//! fold, where two of them meet: an unstable one is taken only where it fits and no stable one is nearly as near.
 
 use crate::control::Control;
 use crate::diagnosis::candidates::start::start;
@@ -14,27 +21,38 @@ const SHARE: f64 = 0.1;
 /// Largest truncation error, relative to the largest amplitude.
 const COARSEST: f64 = 1e-3;
 
+/// Error, relative, up to which an unstable motion fits what was measured: the distance of motions about folds.
+const FITS: f64 = 0.1;
+/// Error of the nearest stable motion, at least, and over that of the unstable one: what is left of it beside a wrong model or about a fold
+/// is less than that.
+const STRAYS: f64 = 0.1;
+const CLEARLY: f64 = 3.0;
+
 /// Difference of the fundamental, relative, within which two motions are one.
 const SAME: f64 = 1e-3;
 
 /// The branch on which the model was compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Branch {
-    /// Its place among the stable motions by size, from 0, the smallest.
+    /// Its place by size, from 0, the smallest: among the stable motions, or among the unstable ones where it is one of these.
     pub number: usize,
     /// Number of stable motions.
     pub stable: usize,
     /// Number of all motions found, unstable ones included.
     pub all: usize,
+    /// Whether it is unstable under a constant force: an exciter that yields, or a controller, held it.
+    pub held: bool,
 }
 
 impl Branch {
-    /// `lower`, `upper`, or `branch 2` among more than two.
+    /// `lower`, `upper`, or `branch 2` among more than two; `middle` for an unstable one between two stable ones.
     pub fn name(&self) -> String {
-        match (self.number, self.stable) {
-            (0, 2) => "lower".to_owned(),
-            (1, 2) => "upper".to_owned(),
-            (n, _) => format!("branch {}", n + 1),
+        match (self.held, self.number, self.stable) {
+            (true, 0, 2) if self.all == 3 => "middle".to_owned(),
+            (true, n, _) => format!("unstable branch {}", n + 1),
+            (false, 0, 2) => "lower".to_owned(),
+            (false, 1, 2) => "upper".to_owned(),
+            (false, n, _) => format!("branch {}", n + 1),
         }
     }
 }
@@ -57,15 +75,48 @@ pub(crate) fn nearest(
         let prediction = first.map_or_else(|| predictor.predict(r, run, effects, &settings, None, control), Ok)?;
         return Ok((predictor.refined(r, run, effects, prediction, control)?, None));
     }
-    let all = found.len();
-    let any_stable = found.iter().any(|(_, stable)| *stable);
-    let mut stable: Vec<RunPrediction> =
-        found.into_iter().filter(|(_, stable)| *stable || !any_stable).map(|(prediction, _)| prediction).collect();
-    stable.sort_by(|a, b| largest(a).total_cmp(&largest(b)));
-    let distances: Vec<f64> = stable.iter().map(|prediction| distance(run, prediction)).collect();
-    let number = (0..stable.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0);
-    let branch = Branch { number, stable: stable.len(), all };
-    Ok((stable.swap_remove(number), (all > 1).then_some(branch)))
+    let motions = found.iter().map(|(motion, stable)| Motion::new(run, motion, *stable)).collect::<Vec<_>>();
+    let (chosen, branch) = measured(&motions);
+    Ok((found.swap_remove(chosen).0, Some(branch)))
+}
+
+/// One of several motions of the model beside what was measured.
+struct Motion {
+    /// Whether it is stable under a constant force.
+    stable: bool,
+    /// Greatest fundamental displacement, m or rad.
+    size: f64,
+    /// Error of the channels, root mean square, relative.
+    error: f64,
+}
+
+impl Motion {
+    fn new(run: &RunData, prediction: &RunPrediction, stable: bool) -> Self {
+        let error = (distance(run, prediction) / run.responses.len().max(1) as f64).sqrt();
+        Self { stable, size: largest(prediction), error }
+    }
+}
+
+/// Which of the motions was measured, and its branch; there is one at least.
+fn measured(motions: &[Motion]) -> (usize, Branch) {
+    let nearest = |stable: bool| {
+        let alike = (0..motions.len()).filter(|&k| motions[k].stable == stable);
+        alike.min_by(|&a, &b| motions[a].error.total_cmp(&motions[b].error))
+    };
+    let chosen = match (nearest(true), nearest(false)) {
+        (Some(stable), Some(other)) if is_held(motions[other].error, motions[stable].error) => other,
+        (Some(stable), _) => stable,
+        (None, other) => other.unwrap_or(0),
+    };
+    let own = &motions[chosen];
+    let smaller = motions.iter().filter(|motion| motion.stable == own.stable && motion.size < own.size).count();
+    let stable = motions.iter().filter(|motion| motion.stable).count();
+    (chosen, Branch { number: smaller, stable, all: motions.len(), held: !own.stable })
+}
+
+/// Whether a motion that is unstable under a constant force was clearly the one measured, by its error and that of the nearest stable one.
+fn is_held(error: f64, of_stable: f64) -> bool {
+    error < FITS && of_stable > STRAYS && CLEARLY * error < of_stable
 }
 
 /// The motion that the model settles to from the measured one, with whether it is stable; none where that is one of those found.

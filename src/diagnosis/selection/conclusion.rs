@@ -134,7 +134,9 @@ impl Outcome<'_> {
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
         let scattered = self.found.updated && explains_by_scatter(error, diagnosis.noise_floor);
-        let enough = misfit < TOLERATED && told && !scattered;
+        // Nor where all motions together are turned against it by what is no scatter of runs.
+        diagnosis.common_factors = reference.common_factors(&reference.predictions);
+        let enough = misfit < TOLERATED && told && !scattered && diagnosis.common_factors.is_empty();
         diagnosis.verdict = match (self.found.updated, enough) {
             (true, true) => Verdict::Detuned,
             (false, true) => Verdict::Adequate,

@@ -3,6 +3,7 @@
 mod backward_elimination;
 mod beside_corrections;
 mod candidate_order;
+mod common_factor;
 pub(crate) mod conclusion;
 mod cross_validation;
 pub(crate) mod estimator;

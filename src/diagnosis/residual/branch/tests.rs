@@ -1,15 +1,17 @@
 //! The branch of Duffing's oscillator, by one harmonic: `F^2 = a^2 ((k - m w^2 + 3/4 k3 a^2)^2 + (w c)^2)`, a cubic in `a^2`.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use super::{nearest, settings};
+use super::{Motion, measured, nearest, settings};
 use crate::common::models::{oscillator, source};
-use crate::common::runs::displacements_run;
+use crate::common::runs::{channel, displacements_run, run};
 use crate::control::Control;
 use crate::diagnosis::Problem;
 use crate::diagnosis::residual::data::Data;
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::effects::Effect;
+use crate::measurement::Quantity;
 use faer::c64;
+use std::f64::consts::TAU;
 
 const MASS: f64 = 1.0;
 const STIFFNESS: f64 = 1.0;
@@ -90,6 +92,83 @@ fn the_upper_motion_is_found_where_the_lower_two_meet() {
         let (prediction, _) = nearest(&predictor, 0, run, &[], &control).unwrap();
         assert!(is_upper(prediction.response.amplitude(0, 1)), "{k}: {at} N");
     }
+}
+
+/// Resistance of the exciter, N s/m: its force under a constant voltage is `A cos w t - Z v`.
+const IMPEDANCE: f64 = 1.0;
+const STEPS: usize = 500;
+const PERIODS: usize = 120;
+
+/// Fundamental and two harmonics of force (N) and displacement (m) in the last period on such an exciter: Runge and Kutta's
+/// fourth order from rest.
+fn on_exciter(drive: f64) -> [Vec<c64>; 2] {
+    let step = TAU / OMEGA / STEPS as f64;
+    let force = |t: f64, v: f64| drive * (OMEGA * t).cos() - IMPEDANCE * v;
+    let slope = |t: f64, [x, v]: [f64; 2]| [v, (force(t, v) - DASHPOT * v - STIFFNESS * x - CUBIC * x.powi(3)) / MASS];
+    let add = |a: [f64; 2], b: [f64; 2], times: f64| [a[0] + times * b[0], a[1] + times * b[1]];
+    let (mut state, mut found) = ([0.0; 2], [vec![c64::new(0.0, 0.0); 3], vec![c64::new(0.0, 0.0); 3]]);
+    for k in 0..PERIODS * STEPS {
+        let t = k as f64 * step;
+        if k >= (PERIODS - 1) * STEPS {
+            for (values, now) in found.iter_mut().zip([force(t, state[1]), state[0]]) {
+                for (h, value) in values.iter_mut().enumerate() {
+                    let angle = -((h + 1) as f64) * OMEGA * t;
+                    *value += c64::new(angle.cos(), angle.sin()) * (2.0 * now / STEPS as f64);
+                }
+            }
+        }
+        let first = slope(t, state);
+        let second = slope(t + 0.5 * step, add(state, first, 0.5 * step));
+        let third = slope(t + 0.5 * step, add(state, second, 0.5 * step));
+        let fourth = slope(t + step, add(state, third, step));
+        for (derivative, share) in [(first, 1.0), (second, 2.0), (third, 2.0), (fourth, 1.0)] {
+            state = add(state, derivative, share * step / 6.0);
+        }
+    }
+    found
+}
+
+/// An exciter whose force yields to the motion holds the middle motion, which no constant force does: it is the one compared.
+#[test]
+fn a_motion_that_an_exciter_held_is_compared_though_it_is_unstable_under_a_constant_force() {
+    let middle = amplitudes()[1];
+    let drive = (c64::new(FORCE, 0.0) + motion(middle) * c64::new(0.0, OMEGA * IMPEDANCE)).norm();
+    let [force, displacement] = on_exciter(drive);
+    assert!((displacement[0].norm() / middle - 1.0).abs() < 0.05, "the test's own numbers: {displacement:?}, {middle}");
+    let structure = oscillator(MASS, STIFFNESS);
+    // A model that is exact, and one that is 1 % off.
+    for off in [1.0, 1.01] {
+        let sources = [source(Effect::Viscous, &[0], &[DASHPOT]), source(Effect::CubicStiffness, &[0], &[off * CUBIC])];
+        let channels = vec![
+            channel(Quantity::Force, 0, force.clone(), 1e-4),
+            channel(Quantity::Displacement, 0, displacement.clone(), 1e-4),
+        ];
+        let runs = [run("on an exciter".into(), OMEGA, channels)];
+        let problem = Problem { structure: &structure, sources: &sources, runs: &runs };
+        let data = Data::new(&problem).unwrap();
+        let predictor = Predictor::new(&structure, sources.to_vec(), &data).unwrap();
+        let (prediction, branch) = nearest(&predictor, 0, &data.runs[0], &[], &Control::unattended()).unwrap();
+        let branch = branch.unwrap();
+        assert_eq!((branch.name().as_str(), branch.held, branch.stable, branch.all), ("middle", true, 2, 3), "{off}");
+        let error = (prediction.response.amplitude(0, 1) - displacement[0]).norm() / displacement[0].norm();
+        assert!(error < 3.0 * (off - 1.0) + 1e-3, "{off}: {error}");
+    }
+}
+
+/// A model that is wrong passes near any motion by chance: an unstable one is taken only where it is clearly the one measured.
+#[test]
+fn in_doubt_a_stable_motion_is_compared() {
+    let chosen = |errors: [f64; 3]| {
+        let motion = |k: usize| Motion { stable: k != 1, size: 1.0 + k as f64, error: errors[k] };
+        let (number, branch) = measured(&[motion(0), motion(1), motion(2)]);
+        assert_eq!(branch.held, number == 1);
+        (number, branch.name())
+    };
+    assert_eq!(chosen([0.8, 0.01, 0.5]), (1, "middle".to_owned()));
+    // Both are far: the model is wrong. The stable one is as near as models are, or nearly as near: a fold.
+    assert_eq!(chosen([0.9, 0.15, 0.6]), (2, "upper".to_owned()));
+    assert_eq!(chosen([0.9, 0.001, 0.05]), (2, "upper".to_owned()));
+    assert_eq!(chosen([0.2, 0.08, 0.9]), (0, "lower".to_owned()));
 }
 
 /// Where there is one motion there is no branch to name.
