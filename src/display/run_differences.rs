@@ -56,12 +56,8 @@ mod tests {
 
     fn runs(count: usize, shift: impl Fn(usize) -> f64) -> Scatter {
         let exact = |value: f64| Estimated { value, deviation: 1e-4 };
-        let run = |run: usize| RunScatter {
-            run,
-            frequency: exact(shift(run)),
-            amplitude: exact(0.0),
-            phase: exact(0.0),
-        };
+        let run =
+            |run: usize| RunScatter { run, frequency: exact(shift(run)), amplitude: exact(0.0), phase: exact(0.0) };
         Scatter { channels: Vec::new(), runs: (0..count).map(run).collect() }
     }
 

@@ -7,6 +7,7 @@ use super::style::Palette;
 use crate::display::format;
 use ecolor::Color32;
 use faer::c64;
+use std::collections::HashSet;
 
 /// Share by which frequencies of one test may differ.
 const SAME_FREQUENCY: f64 = 0.015;
@@ -71,8 +72,10 @@ impl ChannelResponse<'_> {
         for level in self.levels {
             let colour = self.colours(palette, level.force).measured;
             let name = if self.levels.len() > 1 { String::new() } else { "measured".to_owned() };
-            let own = level.runs.contains(&self.run);
-            let in_level = |s: &&Sample| level.runs.contains(&s.run);
+            // A level may hold thousands of runs.
+            let runs: HashSet<usize> = level.runs.iter().copied().collect();
+            let own = runs.contains(&self.run);
+            let in_level = |s: &&Sample| runs.contains(&s.run);
             let points = |value: &dyn Fn(&Sample) -> Option<c64>, list: &[&Sample]| -> Vec<[f64; 2]> {
                 list.iter().filter_map(|s| Some([s.frequency, part.of(value(s)?)])).collect()
             };

@@ -27,17 +27,13 @@ const NO_GAIN: f64 = 0.02;
 /// Gain of a round, in the same units, below which there is no other: what derivatives that are held have missed is a small share of it.
 const LITTLE: f64 = 2.0;
 
-/// Share of what is left by which a step is steep: a descent goes on while its steps are, up to so many times the steps that it may make.
-const STEEP: f64 = 0.3;
-const IN_DESCENT: usize = 3;
-
 /// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
     if start.count > 0 { scale(start) } else { 1.0 }
 }
 
 /// Where a descent is: the fit, and its equations.
-type Place = (FittedRecords, Normal);
+type Iterate = (FittedRecords, Normal);
 
 /// How far a descent goes: most steps and attempts at each, and the share of what is left below which a step gains nothing.
 #[derive(Clone, Copy)]
@@ -119,18 +115,14 @@ impl FitProblem<'_> {
     /// Steps from a place; whether the first of them gained nothing.
     fn descend(
         &self,
-        (mut best, mut equations): Place,
+        (mut best, mut equations): Iterate,
         limits: Limits,
         scales: &[Vec<f64>],
         unit: f64,
         by: &Equations,
-    ) -> Result<(Place, bool), RecordError> {
+    ) -> Result<(Iterate, bool), RecordError> {
         let mut damping = 1e-3;
-        let mut goes_on = true;
-        for k in 0..IN_DESCENT * limits.steps {
-            if k >= limits.steps && !goes_on {
-                break;
-            }
+        for k in 0..limits.steps {
             self.control.check()?;
             if self.control.is_late() {
                 break;
@@ -141,7 +133,6 @@ impl FitProblem<'_> {
             let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
             (best, equations) = (next, there);
-            goes_on = gain > STEEP * before;
             if gain < least {
                 return Ok(((best, equations), k == 0));
             }
@@ -159,7 +150,7 @@ impl FitProblem<'_> {
         (equations, by): (&Normal, &Equations),
         damping: &mut f64,
         (attempts, least): (usize, f64),
-    ) -> Result<Option<Place>, RecordError> {
+    ) -> Result<Option<Iterate>, RecordError> {
         let before = equations.left.total(unit);
         for attempt in 0..attempts {
             let Some(step) = solve(equations, *damping) else {

@@ -13,6 +13,7 @@ mod conclusion;
 pub(crate) mod data;
 mod decays;
 pub(crate) mod diagnose;
+mod equal_work;
 mod errors;
 mod evidence;
 mod fit;

@@ -139,10 +139,7 @@ fn percent(value: Estimated) -> String {
 
 /// Parts of the structure and known sources.
 fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
-    ui.title(
-        "The model",
-        "best-fitting change of each value, one standard deviation; the bar counts standard deviations",
-    );
+    ui.title("The model", "best-fitting change ± one standard deviation; the bar counts deviations");
     if diagnosis.corrections.is_empty() {
         ui.hint("The search did not have to correct anything of it.");
         ui.add_space(space::S);

@@ -12,7 +12,7 @@ use crate::window::language::tr;
 use crate::window::plots::export;
 use crate::window::plots::show::{self, key_row};
 use crate::window::widgets::UiExt;
-use egui::{Ui, vec2};
+use egui::{Align, Layout, Ui, vec2};
 
 /// Height of the plots.
 const PLOTS: f32 = 176.0;
@@ -48,7 +48,9 @@ fn plots(ui: &mut Ui, force: &RestoringForce, structure: &Structure) {
     let (mut panels, mut responses) = (Vec::new(), Vec::new());
     let mut show_plot = |ui: &mut Ui, k: usize| {
         let figure = figures[k].clone().displayed();
-        ui.allocate_ui(vec2(width, PLOTS), |ui| {
+        // The name of a map stands above it, also where two maps stand beside each other.
+        let below = Layout::top_down(Align::Min);
+        ui.allocate_ui_with_layout(vec2(width, PLOTS), below, |ui| {
             ui.set_width(width);
             let id = format!("{} {k}", figure.title);
             if k >= above {
