@@ -88,6 +88,7 @@ fn runs(structure: &Structure, seed: u64) -> Vec<Run> {
                 findings: vec![],
                 per_unit_force: false,
                 functions: None,
+                on_moving_base: false,
             }
         })
         .collect()

@@ -40,6 +40,8 @@ pub struct Run {
     pub per_unit_force: bool,
     /// The frequency responses that it is a line of, on all their lines.
     pub functions: Option<Arc<WholeFunctions>>,
+    /// Whether the structure stood on a moving base: its forces are then loads of its masses, `-M r a`.
+    pub on_moving_base: bool,
 }
 
 /// The known error of a channel: recorded = gain x true, late by the delay.
@@ -95,7 +97,7 @@ impl Run {
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
         let fit = corrected(raw, corrections);
         findings.extend(quality::assess_harmonics(&fit));
-        let (session, insisted, per_unit_force, functions) = (None, false, false, None);
+        let (session, insisted, per_unit_force, functions, on_moving_base) = (None, false, false, None, false);
         let record = Some(record);
         Ok(Self {
             file,
@@ -109,6 +111,7 @@ impl Run {
             findings,
             per_unit_force,
             functions,
+            on_moving_base,
         })
     }
 
@@ -122,10 +125,23 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        let (session, insisted, per_unit_force, functions) = (None, false, false, None);
+        let (session, insisted, per_unit_force, functions, on_moving_base) = (None, false, false, None, false);
         let noise_ratio = noise_ratio(&fit);
         let record = None;
-        Self { file, level, session, enabled, insisted, record, fit, noise_ratio, findings, per_unit_force, functions }
+        Self {
+            file,
+            level,
+            session,
+            enabled,
+            insisted,
+            record,
+            fit,
+            noise_ratio,
+            findings,
+            per_unit_force,
+            functions,
+            on_moving_base,
+        }
     }
 
     /// Whether it takes part in fits and errors: it is wanted, and its record is of a steady motion or is wanted all the

@@ -84,6 +84,7 @@ fn sweep(structure: &Structure) -> Vec<Run> {
                 findings: vec![],
                 per_unit_force: false,
                 functions: None,
+                on_moving_base: false,
             });
         }
     }

@@ -46,6 +46,7 @@ fn periods(structure: &Structure, sensors: usize) -> Result<Vec<Period>, Classic
                 findings: vec![],
                 per_unit_force: false,
                 functions: None,
+                on_moving_base: false,
             };
             let measured = Measured::new(&run).unwrap();
             let expanded = expander.expand(&measured, Acting::NOTHING).unwrap();

@@ -141,6 +141,8 @@ pub struct RunData {
     pub responses: Vec<ChannelData>,
     /// Response channels that take part (not dead).
     pub alive: Vec<usize>,
+    /// Whether the forces are loads of the masses on a moving base.
+    pub on_moving_base: bool,
 }
 
 impl RunData {
@@ -154,7 +156,8 @@ impl RunData {
             return Err(DiagnosisError::NoResponse { file: run.file.clone() });
         }
         let (omega, harmonics) = (run.fit.omega, run.fit.harmonics());
-        let mut data = Self { index, omega, harmonics, forces, responses, alive: Vec::new() };
+        let on_moving_base = run.on_moving_base;
+        let mut data = Self { index, omega, harmonics, forces, responses, alive: Vec::new(), on_moving_base };
         data.alive = (0..data.responses.len())
             .filter(|&c| data.responses[c].size() > DEAD * data.largest(data.responses[c].quantity))
             .collect();
@@ -297,7 +300,8 @@ mod tests {
                 deviation: vec![1e-3; amplitudes.len()],
             };
             let (forces, harmonics) = (vec![channel], amplitudes.len());
-            let run = RunData { index: 0, omega: 1.0, harmonics, forces, responses: Vec::new(), alive: Vec::new() };
+            let (responses, alive) = (Vec::new(), Vec::new());
+            let run = RunData { index: 0, omega: 1.0, harmonics, forces, responses, alive, on_moving_base: false };
             run.excitation(|_, _| c64::new(2.0, 0.0)).forces.remove(0).harmonics
         };
         assert_eq!(force(&[1.0, 2e-3, 3e-3, 1e-3]), [c64::new(0.0, 0.5)]);

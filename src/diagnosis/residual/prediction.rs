@@ -5,6 +5,7 @@
 
 use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
+use crate::diagnosis::updating::base_load;
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::{Kind, Place, Source};
 use crate::response::harmonic_balance::{
@@ -87,6 +88,10 @@ pub struct Predictor {
     omegas: Vec<f64>,
     /// Errors of the force channels that go with the updating parameters.
     force_gains: Vec<Source>,
+    /// Loads of a moving base over those of the stated masses, one a degree of freedom; none: as stated.
+    load_ratios: Vec<f64>,
+    /// Whether a base moves in some run.
+    on_moving_base: bool,
 }
 
 /// The model at every frequency; runs of one frequency share what is computed there.
@@ -119,7 +124,9 @@ impl Predictor {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
         let runs = run_models(&omegas, |omega| model.at(omega));
         let stated = Arc::new((structure.clone(), known.clone()));
-        Ok(Self { model, runs, known, stated, omegas, force_gains: Vec::new() })
+        let on_moving_base = data.runs.iter().any(|run| run.on_moving_base);
+        let (force_gains, load_ratios) = (Vec::new(), Vec::new());
+        Ok(Self { model, runs, known, stated, omegas, force_gains, load_ratios, on_moving_base })
     }
 
     /// The same with the stated structure and known sources updated.
@@ -133,15 +140,22 @@ impl Predictor {
                 *run = run.stiffened(1.0 + shift);
             }
         }
-        let (stated, omegas) = (self.stated.clone(), self.omegas.clone());
-        Ok(Self { model, runs, known, stated, omegas, force_gains: updating.force_gains() })
+        let mut load_ratios = Vec::new();
+        if self.on_moving_base {
+            load_ratios = base_load::load_ratios(&self.stated.0, model.structure());
+        }
+        let (stated, omegas, on_moving_base) = (self.stated.clone(), self.omegas.clone(), self.on_moving_base);
+        let force_gains = updating.force_gains();
+        Ok(Self { model, runs, known, stated, omegas, force_gains, load_ratios, on_moving_base })
     }
 
     /// The forces that the structure felt: as measured, freed of the errors of their channels, those among `effects` and those of
-    /// the updating parameters.
+    /// the updating parameters; of a moving base those of the updated masses.
     pub(crate) fn excitation(&self, data: &RunData, effects: &[Source]) -> Excitation {
+        let load =
+            |dof: usize| if data.on_moving_base { self.load_ratios.get(dof).copied().unwrap_or(1.0) } else { 1.0 };
         data.excitation(|channel, w| {
-            transfer(effects, &channel.name, w) * transfer(&self.force_gains, &channel.name, w)
+            transfer(effects, &channel.name, w) * transfer(&self.force_gains, &channel.name, w) / load(channel.dof)
         })
     }
 

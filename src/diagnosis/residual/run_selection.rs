@@ -91,7 +91,8 @@ mod tests {
                 measured: vec![y],
                 deviation: vec![1e-6],
             };
-            RunData { index: k, omega: w, harmonics: 1, forces: Vec::new(), responses: vec![channel], alive: vec![0] }
+            let (forces, responses, on_moving_base) = (Vec::new(), vec![channel], false);
+            RunData { index: k, omega: w, harmonics: 1, forces, responses, alive: vec![0], on_moving_base }
         };
         Data { runs: (0..101).map(run).collect(), ..Data::default() }
     }

@@ -1,7 +1,7 @@
 //! Backward elimination, the other half of stepwise regression: effects that a set no longer needs, for what brought their evidence was
 //! another effect that came later, the model moved beside it, or a lower local minimum of those that were there before.
 
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::candidate_order::is_open;
 use crate::diagnosis::selection::fitted_model::FittedModel;
@@ -13,6 +13,8 @@ use crate::effects::Source;
 
 /// Rounds in which a model converges beside the effects that are left when another is taken away.
 const UPDATES: usize = 6;
+/// Squared residual without an effect over that with it beyond which no other minimum is looked for.
+const FAR: f64 = 4.0;
 
 /// The effects of `from`, whose evidence is `least`, in the model of the best of the candidates for one effect more, where they have
 /// their evidence there without it: what it brought was a lower local minimum of the same effects, such as other branches of a
@@ -35,7 +37,7 @@ pub(super) fn without_addition<'a>(
     if cost(&own, Some(&begun)) > least - EVIDENCE {
         return Ok(None);
     }
-    let better = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])?;
+    let better = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?], f64::INFINITY)?;
     Ok(better.filter(|better| better.fits[0].effects.len() == same.len() && better.least < least - EVIDENCE))
 }
 
@@ -63,30 +65,53 @@ pub(super) fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<()
     Ok(())
 }
 
-/// The model without the effects of the last set of a search that have a parameter which the data do not know, and without which what
-/// corrections do instead has no less evidence: the model converges beside the others, for corrections beside the whole set are not
-/// those beside fewer.
-pub(super) fn without_open<'a>(
+/// The model without the effects of the last set of a search without which what corrections do instead has no less evidence: the model
+/// converges beside the others, for corrections beside the whole set are not those beside fewer, and is begun again as it was stated, for
+/// those beside fewer may have ended in another local minimum.
+pub(super) fn without_needless_effects<'a>(
     reference: ReferenceModel<'a>,
     found: &mut Found,
 ) -> Result<ReferenceModel<'a>, DiagnosisError> {
     let mut reference = reference;
-    while let Some(best) = found.by_size.last().map(|sets| sets.fits[0].clone()).filter(|fit| fit.effects.len() > 1) {
-        let open = |k: &usize| is_open(&best.deviations[*k], &best.effects[*k]);
-        let Some(k) = (0..best.effects.len()).find(open).filter(|_| !reference.control.is_late()) else { break };
-        let mut fewer = best.effects.clone();
-        fewer.remove(k);
-        let own = reference.with_scales(reference.linearisation.updating.scales);
-        let begun = own.estimator().fit(&fewer, REFITTED, &SEARCH, &best.starts)?;
-        let Some(weighed) = weighed(vec![own.converged(begun, &SEARCH, UPDATES)?])? else { break };
-        if weighed.least > cost(&reference, Some(&best)) + EVIDENCE || weighed.fits[0].effects.len() != fewer.len() {
-            break;
-        }
-        found.by_size.pop();
-        found.by_size.retain(|sets| sets.fits[0].effects.len() < fewer.len());
-        (reference, _) = weighed.taken_into(found);
+    while let Some(fewer) = found.by_size.last().map(|sets| fewer(&reference, sets)).transpose()?.flatten() {
+        let left = fewer.fits[0].effects.len();
+        found.by_size.retain(|sets| sets.fits[0].effects.len() < left);
+        (reference, _) = fewer.taken_into(found);
     }
     Ok(reference)
+}
+
+/// The set without one of its effects, if it is no less likely; the effects that the data do not know are the first to go.
+fn fewer<'a>(reference: &ReferenceModel<'a>, sets: &FittedSets) -> Result<Option<Weighed<'a>>, DiagnosisError> {
+    let best = &sets.fits[0];
+    if best.effects.len() < 2 {
+        return Ok(None);
+    }
+    let most = cost(reference, Some(best)) + EVIDENCE * sets.scale;
+    let mut order: Vec<usize> = (0..best.effects.len()).rev().collect();
+    order.sort_by_key(|&k| !is_open(&best.deviations[k], &best.effects[k]));
+    for k in order {
+        if reference.control.is_late() {
+            break;
+        }
+        let mut effects = best.effects.clone();
+        effects.remove(k);
+        let own = reference.with_scales(reference.linearisation.updating.scales);
+        let begun = own.estimator().fit(&effects, REFITTED, &SEARCH, &best.starts)?;
+        let mut fits = vec![own.converged(begun, &SEARCH, UPDATES)?];
+        let (own, converged) = &fits[0];
+        if !is_open(&best.deviations[k], &best.effects[k]) {
+            if converged.chi_square > FAR * best.chi_square {
+                continue;
+            }
+            fits.extend(if_possible(own.begun_again(converged))?.flatten());
+        }
+        let Some(weighed) = weighed(fits, f64::INFINITY)? else { continue };
+        if weighed.least < most && weighed.fits[0].effects.len() == effects.len() {
+            return Ok(Some(weighed));
+        }
+    }
+    Ok(None)
 }
 
 #[cfg(test)]
@@ -152,7 +177,7 @@ mod tests {
             let noise = reference.noise.clone();
             let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
             let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
-            let converged = without_open(reference, &mut found).unwrap();
+            let converged = without_needless_effects(reference, &mut found).unwrap();
             let structure = converged.linearisation.updating.structure(converged.predictor.stated().0);
             let ground = structure.matrices().unwrap().stiffness[(0, 0)] - 1e4;
             (found.by_size.pop().unwrap().fits.remove(0).effects, ground / 2e4)

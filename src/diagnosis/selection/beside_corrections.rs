@@ -2,7 +2,7 @@
 
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
-use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_open};
+use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_needless_effects};
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
 use crate::diagnosis::selection::cross_validation::{exceeds, groups};
 use crate::diagnosis::selection::fitted_model::FittedModel;
@@ -96,7 +96,8 @@ fn effects_beside<'a>(
             here = likely.with_scales(likely.linearisation.updating.scales);
             continue;
         }
-        let Some(mut weighed) = weighed(fits)? else { break };
+        let most = from.as_ref().map_or(f64::INFINITY, |from| RAISED * from.error);
+        let Some(mut weighed) = weighed(fits, most)? else { break };
         if from.is_none()
             && let Some(two) = here.two_laws_for(&weighed)?
         {
@@ -127,7 +128,7 @@ fn effects_beside<'a>(
         found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
     pruned(&likely, &mut found)?;
-    let likely = without_open(likely, &mut found)?;
+    let likely = without_needless_effects(likely, &mut found)?;
     Ok(Ok(Outcome { reference: likely, found }))
 }
 

@@ -27,9 +27,6 @@ const STEP: f64 = 1e-3;
 /// Least factor by which a test must narrow a parameter down to be worth naming.
 const WORTH: f64 = 1.3;
 
-/// Difference of the ratios of two forces from run to run, relative, up to which one cause makes both: that of two exciters is noise.
-const ONE_CAUSE: f64 = 1e-6;
-
 /// A sine that the exciter, or the base that the structure stands on, could make.
 struct Trial {
     excitation: Excitation,
@@ -41,23 +38,10 @@ struct Trial {
 
 /// The forces of a base that drives the structure where it moves most, each with its DOF; none where exciters do.
 fn base_forces(reference: &ReferenceModel) -> Option<Vec<(usize, c64)>> {
-    let fundamentals = |run: &RunData| -> Option<Vec<(usize, c64)>> {
-        run.forces.iter().map(|f| f.measured.first().map(|first| (f.dof, *first))).collect()
-    };
-    let runs = reference.data.runs.iter().map(fundamentals).collect::<Option<Vec<_>>>()?;
-    let size = |forces: &[(usize, c64)]| forces.iter().map(|(_, f)| f.norm_sqr()).sum::<f64>();
-    let most = runs.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
-    let largest = (0..most.len()).max_by(|&a, &b| most[a].1.norm().total_cmp(&most[b].1.norm()))?;
-    let in_proportion = |forces: &Vec<(usize, c64)>| {
-        forces.len() == most.len() && {
-            let factor = forces[largest].1 / most[largest].1;
-            let near = |(f, m): (&(usize, c64), &(usize, c64))| {
-                f.0 == m.0 && (f.1 - factor * m.1).norm() < ONE_CAUSE * forces[largest].1.norm()
-            };
-            forces.iter().zip(most).all(near)
-        }
-    };
-    (runs.len() > 1 && most.len() > 1 && runs.iter().all(in_proportion)).then(|| most.clone())
+    let size = |run: &&RunData| run.forces.iter().map(|f| f.size().powi(2)).sum::<f64>();
+    let driven = reference.data.runs.iter().filter(|run| run.on_moving_base);
+    let most = driven.max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    most.forces.iter().map(|f| f.measured.first().map(|first| (f.dof, *first))).collect()
 }
 
 impl Trial {

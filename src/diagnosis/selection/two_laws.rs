@@ -33,7 +33,7 @@ impl<'a> ReferenceModel<'a> {
         if unfitted.is_empty() {
             return Ok(None);
         }
-        let Some(two) = weighed(self.refined(unfitted)?)? else { return Ok(None) };
+        let Some(two) = weighed(self.refined(unfitted)?, f64::INFINITY)? else { return Ok(None) };
         let effects = &two.fits[0].effects;
         let both = effects.len() > 1 && !effects.iter().any(|e| e.effect.is_mass_or_spring());
         let gains = gains(&two, best);

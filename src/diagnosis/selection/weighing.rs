@@ -58,9 +58,14 @@ const WIDER_UPDATES: usize = 3;
 /// Candidates that are settled to the end: where the best turns out to be nothing, the next.
 const FINISHED: usize = 2;
 
-/// Weighs fitted candidates, each with the model that was updated beside it.
-pub(super) fn weighed(fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Result<Option<Weighed<'_>>, DiagnosisError> {
+/// Weighs fitted candidates, each with the model that was updated beside it; those that leave more than the error `most`, as `compare`
+/// shows it, are none: what lowers the squared residual by what is free from run to run alone is nothing that could be added.
+pub(super) fn weighed(
+    fits: Vec<(ReferenceModel<'_>, FittedModel)>,
+    most: f64,
+) -> Result<Option<Weighed<'_>>, DiagnosisError> {
     let mut all = with_likely_scales(by_simplest_name(fits)?)?;
+    all.retain(|candidate| candidate.fit.error <= most);
     begin_again(&mut all)?;
     let wider = all.first().map_or(Ok(Vec::new()), generalisations_of)?;
     let fresh = |w: &Candidate| !all.iter().any(|c| c.cost < w.cost && same_set(&w.fit.effects, &c.fit.effects));

@@ -1,6 +1,7 @@
 //! Model updating: what the model states wrongly, with priors and scales (Friswell and Mottershead 1995).
 
 pub(crate) mod absorbed_damping;
+pub(crate) mod base_load;
 pub(crate) mod believable;
 pub(crate) mod correction;
 pub(crate) mod detuning;

@@ -88,6 +88,8 @@ pub struct Updating {
     pub scales: Scales,
     /// Geometric mean of the circular frequencies of the runs, rad/s: turns the scale of phases into one of delays.
     pub omega: f64,
+    /// What each parameter does to the loads of a moving base, as degrees of freedom with slopes; none: no base moves.
+    pub load_slopes: Vec<Vec<(usize, f64)>>,
 }
 
 impl Default for Updating {
@@ -100,6 +102,7 @@ impl Default for Updating {
             sessions: Vec::new(),
             scales: Scales::START,
             omega: 1.0,
+            load_slopes: Vec::new(),
         }
     }
 }
@@ -149,6 +152,7 @@ impl Updating {
             omega: logs.exp(),
             ..Self::default()
         }
+        .with_base_loads(structure, data)
         .with_scales(Scales::SEARCH)
     }
 
@@ -289,7 +293,11 @@ impl Updating {
     /// `known` are the updated sources.
     pub fn unknowns(&self, k: usize, known: &[Source], run: &RunData) -> Vec<(Unknown, f64)> {
         match &self.parameters[k] {
-            UpdatingParameter::Structure(part) => vec![(unknown(*part), 1.0)],
+            UpdatingParameter::Structure(part) => {
+                let mut unknowns = vec![(unknown(*part), 1.0)];
+                unknowns.extend(self.by_base_load(k, run));
+                unknowns
+            }
             UpdatingParameter::Known(j) => {
                 let unknown_with_factor =
                     |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);

@@ -33,6 +33,7 @@ impl Plan {
         let bases = bases.ok_or_else(missing)?;
         let response = index.map_or(self.file.base.response, |index| self.runs[index].response);
         run.fit = driven(run.fit, &bases, response == BaseResponse::Absolute);
+        run.on_moving_base = true;
         Ok(run)
     }
 

@@ -39,6 +39,7 @@ fn run(force: f64) -> RunData {
             channel("disp@3", Quantity::Displacement, 2, one),
         ],
         alive: vec![0, 1, 2],
+        on_moving_base: false,
     }
 }
 
