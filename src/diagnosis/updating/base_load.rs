@@ -67,7 +67,7 @@ mod tests {
         let force = |dof: usize| channel(Quantity::Force, dof, vec![amplitudes[dof]], 1e-3);
         let motion = |dof: usize| channel(Quantity::Displacement, dof, vec![c64::new(1e-2, 0.0)], 1e-6);
         let mut driven = run("12 rad/s".into(), omega, vec![force(0), force(1), motion(0), motion(1)]);
-        let predicted = |on_base: bool, factor: f64| {
+        let mut predicted = |on_base: bool, factor: f64| {
             driven.on_moving_base = on_base;
             let runs = [driven.clone()];
             let data = Data::new(&Problem { structure: &structure, sources: &[], runs: &runs }).unwrap();
