@@ -34,6 +34,9 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("effect".into(), json!(effect));
                 map.insert("dofs".into(), json!([]));
                 map.insert("channels".into(), json!(fault.channels));
+                if let [name] = &fault.channels[..] {
+                    map.insert("channel".into(), json!(name));
+                }
                 map.insert("parameters".into(), json!({ parameter: chain.value }));
                 map.insert("standard_deviation".into(), json!({ parameter: chain.deviation }));
             }

@@ -1,5 +1,5 @@
-//! What a measuring chain does to all motions together against the force: a high-pass (AC coupling), or one of both that is
-//! recorded late. No shape of the motion shows it, and no modal mass.
+//! What a measuring chain does to all motions together against the force, or to one channel against the others: a high-pass (AC
+//! coupling), or a delay. Of all motions no shape shows it, and no modal mass.
 //!
 //! Beside a model that is corrected, the motion of run `r` at `w_r` is measured `rho_r` times as large as it is predicted, and
 //!
@@ -10,7 +10,7 @@
 //! rho = g exp(i w t)               the force is
 //! ```
 //!
-//! with one real `g`, the scale of the model. `g` and `w_c` or `t` are fitted to all runs by least squares. A model that is wrong turns
+//! with one real `g`, the scale of the model; of one channel `rho_r` is its own ratio over that of the others, and `t` of either sign. `g` and `w_c` or `t` are fitted to all runs by least squares. A model that is wrong turns
 //! each mode by an angle of its own, forth and back about its resonance; a law that is missing turns each level by one of its own.
 
 use faer::c64;
@@ -88,14 +88,28 @@ pub(crate) struct Explained {
 
 /// The chain that explains the ratios of the motions best, where one does.
 pub(crate) fn explained(ratios: &[Ratio]) -> Option<Explained> {
+    let leads = ratios.iter().map(|(_, rho)| rho.arg()).sum::<f64>() > 0.0;
+    best_of(ratios, [(Chain::Late, leads), (Chain::HighPass, !leads)])
+}
+
+/// The same of one channel against the others, a delay below zero where it is early.
+pub(crate) fn explained_of_one(ratios: &[Ratio]) -> Option<Explained> {
+    let early = ratios.iter().map(|(w, rho)| w * rho.arg()).sum::<f64>() > 0.0;
+    let mut found = best_of(ratios, [(Chain::Late, early), (Chain::HighPass, false)])?;
+    if found.of_force {
+        (found.fault.value, found.of_force) = (-found.fault.value, false);
+    }
+    Some(found)
+}
+
+/// The best of chains, each of the force or not, where it explains the ratios.
+fn best_of(ratios: &[Ratio], tried: [(Chain, bool); 2]) -> Option<Explained> {
     let lowest = ratios.iter().fold(f64::INFINITY, |m, (w, _)| m.min(*w));
     let highest = ratios.iter().fold(0.0_f64, |m, (w, _)| m.max(*w));
     let sound = ratios.iter().all(|(w, rho)| *w > 0.0 && rho.norm().is_finite() && rho.norm() > 0.0);
     if ratios.len() < RUNS || highest < APART * lowest || !sound {
         return None;
     }
-    let leads = ratios.iter().map(|(_, rho)| rho.arg()).sum::<f64>() > 0.0;
-    let tried = [(Chain::Late, leads), (Chain::HighPass, !leads)];
     let fits = tried.into_iter().filter_map(|(chain, of_force)| Fit::new(ratios, chain, of_force));
     let best = fits.min_by(|a, b| a.left.total_cmp(&b.left))?;
     let without = beside_scale(ratios, |_| c64::new(1.0, 0.0));
@@ -240,6 +254,17 @@ mod tests {
             let off = (found.fault.value - value).abs();
             assert!(off < 3.0 * found.fault.deviation && off < 0.01 * value, "{chain:?} {of_force}: {:?}", found.fault);
             assert!(found.error[1] < 3e-3 && found.error[0] > 0.05, "{:?}", found.error);
+        }
+    }
+
+    #[test]
+    fn of_one_channel_a_delay_has_either_sign() {
+        for delay in [1.2e-3, -1.2e-3] {
+            let found = explained_of_one(&ratios(|w| c64::from_polar(1.0, -w * delay))).unwrap();
+            assert_eq!((found.fault.chain, found.of_force), (Chain::Late, false));
+            assert!((found.fault.value / delay - 1.0).abs() < 0.02, "{:?}", found.fault);
+            let recorded = found.fault.transfer(40.0).arg();
+            assert!((recorded + 40.0 * delay).abs() < 1e-3, "{recorded}");
         }
     }
 

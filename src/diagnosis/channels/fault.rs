@@ -18,7 +18,7 @@ pub enum Fault {
     Factor(f64),
     /// All motions together, or the force against all motions, read that many times their true value.
     Common(f64),
-    /// All motions together, or the force against all motions, pass a high-pass or are recorded late.
+    /// All motions together, the force against all motions, or one channel against the others pass a high-pass or are recorded late.
     Chain(ChainFault),
     /// Two channels are at each other's place.
     Exchanged,
@@ -91,7 +91,7 @@ impl ChannelFault {
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;
         if let Fault::Chain(chain) = self.fault {
-            return chain_evidence(&chain, [&before, &after], self.frequencies);
+            return chain_evidence(&self.channels, &chain, [&before, &after], self.frequencies);
         }
         if let Fault::Common(_) = self.fault {
             return format!(
@@ -131,22 +131,36 @@ fn chain_words(channels: &[String], chain: &ChainFault) -> String {
     match chain.chain {
         Chain::HighPass => format!("{who} passed a high-pass at {} Hz: AC coupling?", significant(chain.value, 4)),
         Chain::Late => {
-            let against = if channels[0].starts_with("force@") { "motions" } else { "force" };
-            format!("{who} came {} ms late against the {against}", significant(1e3 * chain.value, 4))
+            let against = match channels {
+                _ if channels[0].starts_with("force@") => "motions",
+                [_] => "other motions",
+                _ => "force",
+            };
+            let way = if chain.value < 0.0 { "early" } else { "late" };
+            format!("{who} came {} ms {way} against the {against}", significant(1e3 * chain.value.abs(), 4))
         }
     }
 }
 
 /// Why, in a sentence with numbers.
-fn chain_evidence(chain: &ChainFault, [before, after]: [&str; 2], [shown, of]: [usize; 2]) -> String {
+fn chain_evidence(
+    channels: &[String],
+    chain: &ChainFault,
+    [before, after]: [&str; 2],
+    [shown, of]: [usize; 2],
+) -> String {
     let [low, high] = chain.range_hz;
     let [first, last] = chain.range_hz.map(|hz| significant(chain.lead_deg(hz), 2));
     let (deviation, unit) = match chain.chain {
         Chain::Late => (1e3 * chain.deviation, "ms"),
         Chain::HighPass => (chain.deviation, "Hz"),
     };
+    let by = match channels {
+        [name] if !name.starts_with("force@") => "its motion over that of the others beside what was found",
+        _ => "one factor on all their motions beside the best corrections",
+    };
     format!(
-        "{shown} of {of} runs say so by one factor on all their motions beside the best corrections, a lead of {first} degrees at {} Hz \
+        "{shown} of {of} runs say so by {by}, a lead of {first} degrees at {} Hz \
          and of {last} at {} Hz, +- {} {}: its scatter falls from {before} % to {after} %",
         significant(low, 3),
         significant(high, 3),

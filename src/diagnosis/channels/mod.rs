@@ -11,8 +11,8 @@
 //! run by least absolute deviations, so that a channel that is wrong hardly bends it. The error of a channel in a run is
 //! `|X - X_fit| / max(|X|, |X_fit|)`, 2 where the sign is wrong. A fault is named where it brings the error of its channels in
 //! all frequencies down to a fraction. Beside that, a factor that all motions have in common against the force (`common`): no
-//! shape shows it; and sensors and forces at other DOFs than are said (`places`). A high-pass or a delay of all motions against the
-//! force (`chain`) shows beside a corrected model only: the search finds it.
+//! shape shows it; and sensors and forces at other DOFs than are said (`places`). A high-pass or a delay (`chain`), of all motions
+//! against the force or of one channel, shows beside a corrected model only: the search finds it.
 
 mod cells;
 pub(crate) mod chain;
