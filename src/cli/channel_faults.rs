@@ -1,7 +1,7 @@
 //! Faults of channels in `dashpot diagnose`, in words and as JSON.
 
 use super::table::number;
-use crate::diagnosis::channels::{Chain, ChainFault, ChannelFault, Fault};
+use crate::diagnosis::channels::{ChannelFault, Fault};
 use serde_json::{Map, Value, json};
 
 /// What is said of runs that are lines of frequency responses.
@@ -29,14 +29,6 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("parameters".into(), json!({ "gain": factor }));
                 map.insert("standard_deviation".into(), json!({ "gain": null }));
             }
-            Fault::Chain(chain) => {
-                let (effect, parameter) = chain_words(&chain);
-                map.insert("effect".into(), json!(effect));
-                map.insert("dofs".into(), json!([]));
-                map.insert("channels".into(), json!(fault.channels));
-                map.insert("parameters".into(), json!({ parameter: chain.value }));
-                map.insert("standard_deviation".into(), json!({ parameter: chain.deviation }));
-            }
             Fault::Exchanged | Fault::Elsewhere(_) => {
                 let kind = if fault.fault == Fault::Exchanged { "exchanged" } else { "elsewhere" };
                 map.insert("effect".into(), json!(kind));
@@ -55,34 +47,20 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
     })
 }
 
-/// What is in a chain, and what its number is called.
-fn chain_words(chain: &ChainFault) -> (&'static str, &'static str) {
-    match chain.chain {
-        Chain::Late => ("delay", "delay"),
-        Chain::HighPass => ("high_pass", "corner_hz"),
-    }
-}
-
 /// A fault in the JSON document.
 pub(super) fn document(fault: &ChannelFault) -> Value {
     let (kind, factor) = match fault.fault {
         Fault::Exchanged => ("exchanged", None),
         Fault::Elsewhere(_) => ("elsewhere", None),
         Fault::Unreliable(_) => ("unreliable", None),
-        Fault::Chain(chain) => (chain_words(&chain).0, None),
         Fault::Factor(-1.0) | Fault::Common(-1.0) => ("reversed", Some(-1.0)),
         Fault::Factor(factor) | Fault::Common(factor) => ("factor", Some(factor)),
     };
-    let chain = if let Fault::Chain(chain) = fault.fault { Some(chain) } else { None };
-    let of_chain = |kind: Chain| chain.filter(|own| own.chain == kind).map(|own| own.value);
     json!({
         "fault": kind,
         "channels": fault.channels,
         "factor": factor,
         "scatter": if let Fault::Unreliable(scatter) = fault.fault { Some(scatter) } else { None },
-        "delay_s": of_chain(Chain::Late),
-        "corner_hz": of_chain(Chain::HighPass),
-        "standard_deviation": chain.map(|chain| chain.deviation),
         "words": fault.words(),
         "error_before": fault.error_before,
         "error_after": fault.error_after,

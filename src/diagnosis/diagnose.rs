@@ -1,7 +1,7 @@
 //! Which effect is missing: ranked suggestions, the steps to a model that agrees with the data, a verdict.
 
 use crate::control::Control;
-use crate::diagnosis::channels::{self, ChannelFault, Fault};
+use crate::diagnosis::channels::{self, ChannelFault};
 use crate::diagnosis::errors_on_all_runs;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, RunData};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
@@ -106,7 +106,7 @@ pub(crate) fn lacks_width(problem: &Problem, control: &Control) -> Result<bool, 
         Err(error) => return Err(error),
     };
     let turned = |(run, prediction): (&RunData, &RunPrediction)| {
-        scaled_factors(run, prediction).first().is_some_and(|z| z.im.abs() > z.re.abs())
+        !prediction.found || scaled_factors(run, prediction).first().is_some_and(|z| z.im.abs() > z.re.abs())
     };
     Ok(data.runs.iter().zip(&predictions).any(turned))
 }
@@ -130,7 +130,7 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     if faults.is_empty() {
         return Ok(diagnosis);
     }
-    if mendable > 0 || faults.iter().any(|fault| matches!(fault.fault, Fault::Chain(_))) {
+    if mendable > 0 {
         diagnosis.follows(asis, faults);
     } else {
         diagnosis.error_before = asis.error;

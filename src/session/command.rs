@@ -79,9 +79,6 @@ pub struct Mending {
     /// How many times too large they read, negative where they are reversed; none where they are exchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// Time by which they are recorded late, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub delay: Option<f64>,
     /// Whether the first channel is where the second is said to be.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub elsewhere: bool,

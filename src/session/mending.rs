@@ -5,7 +5,7 @@ mod responses;
 
 use super::command::{Command, Mending};
 use super::refusal::Refusal;
-use crate::diagnosis::channels::{Chain, ChainFault, ChannelFault, Fault};
+use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::file::ProjectFile;
@@ -16,10 +16,6 @@ use crate::structure::Structure;
 /// Behind the name of a channel that not all records have; no label ends so.
 const OF_SOME: &str = " ?";
 
-/// Why a high-pass stays.
-const NO_HIGH_PASS: &str =
-    "a mapping has no high-pass; measure with DC coupling, or divide the records by its response";
-
 /// The command that mends a fault.
 ///
 /// # Errors
@@ -27,14 +23,12 @@ const NO_HIGH_PASS: &str =
 pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
         Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
-        Fault::Chain(ChainFault { chain: Chain::HighPass, .. }) => return Err(NO_HIGH_PASS.to_owned()),
-        Fault::Chain(_) | Fault::Exchanged | Fault::Elsewhere(_) => None,
+        Fault::Exchanged | Fault::Elsewhere(_) => None,
         Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
     };
     let elsewhere = matches!(fault.fault, Fault::Elsewhere(_));
-    let delay = if let Fault::Chain(chain) = fault.fault { Some(chain.value) } else { None };
     let (channels, driven) = (fault.channels.clone(), driven(project));
-    Ok(Command::MendChannels(Mending { channels, factor, delay, elsewhere, driven, records: of_records(project) }))
+    Ok(Command::MendChannels(Mending { channels, factor, elsewhere, driven, records: of_records(project) }))
 }
 
 /// Labels of the DOFs where the forces of frequency responses act.
@@ -109,11 +103,6 @@ fn in_mapping(tables: &mut [ChannelTable], mending: &Mending) -> Result<(), Stri
         return Ok(());
     }
     let rows = mending.channels.iter().map(rows_of).collect::<Result<Vec<_>, _>>()?;
-    if let Some(delay) = mending.delay {
-        let late = |row: &usize| tables[*row].delay = Some(tables[*row].delay.unwrap_or(0.0) + delay);
-        rows.iter().flatten().for_each(late);
-        return Ok(());
-    }
     match (mending.factor, &rows[..]) {
         (Some(factor), rows) => rows.iter().flatten().for_each(|&row| divide(&mut tables[row], factor)),
         (None, [first, second]) => {

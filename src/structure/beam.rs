@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn errors_name_the_parameter() {
         let bad = BeamParameters { depth: -1.0, ..thesis_beam() }.build(&[]).unwrap_err();
-        assert_eq!(bad.to_string(), "depth is -1 m: give a positive finite number");
+        assert_eq!(bad.to_string(), "depth is -1 m: give a positive number of at most 1e30");
         let lumped = thesis_beam().build(&[LumpedMass { dof: "21".into(), mass: 1.0 }]).unwrap_err();
         assert!(lumped.to_string().starts_with("there is no DOF \"21\"; labels near it: 20, 19"), "{lumped}");
         let one = BeamParameters { elements: 1, supports: Supports::ClampedClamped, ..thesis_beam() };

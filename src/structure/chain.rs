@@ -107,6 +107,6 @@ mod tests {
         let message = chain.build(&[]).unwrap_err().to_string();
         assert_eq!(message, "coupling_stiffness has 3 values but 2 are needed (one less than masses)");
         let nan = ChainParameters { masses: vec![f64::NAN], ground_stiffness: vec![0.0], coupling_stiffness: vec![] };
-        assert_eq!(nan.build(&[]).unwrap_err().to_string(), "mass 1 is NaN kg: give a positive finite number");
+        assert_eq!(nan.build(&[]).unwrap_err().to_string(), "mass 1 is NaN kg: give a positive number of at most 1e30");
     }
 }

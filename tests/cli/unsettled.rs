@@ -32,7 +32,7 @@ fn where_no_run_has_settled_those_that_hardly_change_are_used() {
     let used = dashpot(&["compare", "p.toml", "--json"], folder.path());
     let said = text(&used.stderr);
     assert_eq!(used.status.code(), Some(0), "{said}");
-    assert!(said.contains("note: no run has settled: amplitudes change by up to 0."), "{said}");
+    assert!(said.contains("note: no run has settled: amplitudes change by up to 1.0 %"), "{said}");
     let document: serde_json::Value = serde_json::from_slice(&used.stdout).unwrap();
     assert_eq!(document["runs"][0]["findings"][0]["flag"], "not-settled");
     let left_out = SOUGHT.replace("frequency = 12\n", "frequency = 12\nuse = false\n");

@@ -1,9 +1,9 @@
 //! Projects with a hidden effect: the comparison sees it, the diagnosis names it.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
-mod chain;
 #[path = "../common/mod.rs"]
 mod common;
+mod common_factor;
 mod comparison;
 mod energy_rows;
 mod force_gain;

@@ -86,9 +86,9 @@ proptest! {
     #[test]
     fn any_values_survive_saving(
         title in any::<String>(),
-        c in 0.0..f64::MAX,
-        gain in 1e-300..1e300_f64,
-        frequency in proptest::option::of(1e-300..1e300_f64),
+        c in 0.0..1e30_f64,
+        gain in 1e-300..1e30_f64,
+        frequency in proptest::option::of(1e-300..1e30_f64),
         level in proptest::option::of(any::<i64>()),
         enabled in any::<bool>(),
         label in any::<String>(),

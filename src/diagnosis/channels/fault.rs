@@ -1,8 +1,6 @@
 //! What can be wrong with a channel, in words.
 
-use super::chain::{Chain, ChainFault};
 use crate::effects::{Kind, Source};
-use crate::math::numerals::significant;
 use crate::measurement::Quantity;
 use crate::measurement::channel::{POUND_FORCE, STANDARD_GRAVITY};
 
@@ -18,8 +16,6 @@ pub enum Fault {
     Factor(f64),
     /// All motions together, or the force against all motions, read that many times their true value.
     Common(f64),
-    /// All motions together, or the force against all motions, pass a high-pass or are recorded late.
-    Chain(ChainFault),
     /// Two channels are at each other's place.
     Exchanged,
     /// A sensor or a force is at another DOF than is said: at this row.
@@ -68,7 +64,6 @@ impl ChannelFault {
                 )
             }
             Fault::Common(factor) => common_words(&self.channels, factor),
-            Fault::Chain(chain) => chain_words(&self.channels, &chain),
             Fault::Factor(factor) => {
                 let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
                 if factor == -1.0 {
@@ -90,9 +85,6 @@ impl ChannelFault {
         }
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;
-        if let Fault::Chain(chain) = self.fault {
-            return chain_evidence(&chain, [&before, &after], self.frequencies);
-        }
         if let Fault::Common(_) = self.fault {
             return format!(
                 "the masses of {shown} of {of} modes with runs about them say so, whatever their frequencies and damping: the error \
@@ -113,53 +105,13 @@ impl ChannelFault {
     }
 }
 
-/// One channel, or all of several, as they are called.
-fn who(channels: &[String]) -> String {
-    let quantity = |name: &String| name.split('@').next().unwrap_or_default().to_owned();
-    match channels {
-        [name] => name.clone(),
-        [first, rest @ ..] if rest.iter().all(|name| quantity(name) == quantity(first)) => {
-            format!("all {} {} channels", channels.len(), quantity(first))
-        }
-        _ => format!("all {} motion channels", channels.len()),
-    }
-}
-
-/// What the chain of all motions, or of the force, does, in a sentence.
-fn chain_words(channels: &[String], chain: &ChainFault) -> String {
-    let who = who(channels);
-    match chain.chain {
-        Chain::HighPass => format!("{who} passed a high-pass at {} Hz: AC coupling?", significant(chain.value, 4)),
-        Chain::Late => {
-            let against = if channels[0].starts_with("force@") { "motions" } else { "force" };
-            format!("{who} came {} ms late against the {against}", significant(1e3 * chain.value, 4))
-        }
-    }
-}
-
-/// Why, in a sentence with numbers.
-fn chain_evidence(chain: &ChainFault, [before, after]: [&str; 2], [shown, of]: [usize; 2]) -> String {
-    let [low, high] = chain.range_hz;
-    let [first, last] = chain.range_hz.map(|hz| significant(chain.lead_deg(hz), 2));
-    let (deviation, unit) = match chain.chain {
-        Chain::Late => (1e3 * chain.deviation, "ms"),
-        Chain::HighPass => (chain.deviation, "Hz"),
-    };
-    format!(
-        "{shown} of {of} runs say so by one factor on all their motions beside the best corrections, a lead of {first} degrees at {} Hz \
-         and of {last} at {} Hz, +- {} {}: its scatter falls from {before} % to {after} %",
-        significant(low, 3),
-        significant(high, 3),
-        significant(deviation, 1),
-        unit
-    )
-}
-
 /// A fault that channels have in common, in a sentence.
 fn common_words(channels: &[String], factor: f64) -> String {
     let name = &channels[0];
-    let who = who(channels);
-    let (look, read) = if channels.len() == 1 { ("looks", "reads") } else { ("look", "read") };
+    let (who, look, read) = match channels.len() {
+        1 => (name.clone(), "looks", "reads"),
+        count => (format!("all {count} {} channels", name.split('@').next().unwrap_or_default()), "look", "read"),
+    };
     let size = factor.abs();
     if size == 1.0 {
         return format!(

@@ -11,11 +11,9 @@
 //! run by least absolute deviations, so that a channel that is wrong hardly bends it. The error of a channel in a run is
 //! `|X - X_fit| / max(|X|, |X_fit|)`, 2 where the sign is wrong. A fault is named where it brings the error of its channels in
 //! all frequencies down to a fraction. Beside that, a factor that all motions have in common against the force (`common`): no
-//! shape shows it; and sensors and forces at other DOFs than are said (`places`). A high-pass or a delay of all motions against the
-//! force (`chain`) shows beside a corrected model only: the search finds it.
+//! shape shows it; and sensors and forces at other DOFs than are said (`places`).
 
 mod cells;
-pub(crate) mod chain;
 mod common;
 pub(crate) mod fault;
 mod in_time;
@@ -24,7 +22,6 @@ pub(crate) mod mending;
 mod places;
 mod search;
 
-pub use chain::{Chain, ChainFault};
 pub use fault::{ChannelFault, Fault};
 pub(crate) use in_time::find_in_time;
 pub(crate) use search::{find, place_of_force};
@@ -35,7 +32,6 @@ use crate::diagnosis::residual::data::{ChannelData, Data};
 pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
     let mut data = data.clone();
     data.doubted |= faults.iter().any(|fault| matches!(fault.fault, Fault::Unreliable(_)));
-    data.chain_mended |= faults.iter().any(|fault| matches!(fault.fault, Fault::Chain(_)));
     for run in &mut data.runs {
         for fault in faults {
             let is_first = |channel: &&mut ChannelData| channel.name == fault.channels[0];
@@ -46,12 +42,6 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
                     .chain(&mut run.forces)
                     .filter(|channel| fault.channels.contains(&channel.name))
                     .for_each(|channel| divide(channel, *factor)),
-                Fault::Chain(chain) => {
-                    let omega = run.omega;
-                    let all = responses.chain(&mut run.forces);
-                    all.filter(|channel| fault.channels.contains(&channel.name))
-                        .for_each(|channel| before(channel, chain, omega));
-                }
                 Fault::Unreliable(scatter) => responses.filter(is_first).for_each(|channel| widen(channel, *scatter)),
                 Fault::Elsewhere(dof) => responses
                     .chain(&mut run.forces)
@@ -72,13 +62,6 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
 fn divide(channel: &mut ChannelData, factor: f64) {
     channel.measured.iter_mut().for_each(|value| *value /= factor);
     channel.deviation.iter_mut().for_each(|deviation| *deviation /= factor.abs());
-}
-
-/// Makes of what a channel recorded at circular frequency `omega` (rad/s) what was there before the chain.
-fn before(channel: &mut ChannelData, chain: &ChainFault, omega: f64) {
-    let transfer = |i: usize| chain.transfer((i + 1) as f64 * omega);
-    channel.measured.iter_mut().enumerate().for_each(|(i, value)| *value /= transfer(i));
-    channel.deviation.iter_mut().enumerate().for_each(|(i, deviation)| *deviation /= transfer(i).norm());
 }
 
 /// Adds a relative deviation to what a channel reads.

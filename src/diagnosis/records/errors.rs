@@ -45,6 +45,6 @@ mod tests {
         let model = vec![(0..record.len()).map(wave).collect::<Vec<f64>>()];
         let [whole, end] =
             [0..record.len(), record.len() / 2..record.len()].map(|part| channel_errors(record, &model, part)[0]);
-        assert!(whole < 0.02 && end < 0.1 && end > whole, "{whole} {end}");
+        assert!(whole < 0.02 && end < 0.12 && end > whole, "{whole} {end}");
     }
 }

@@ -204,8 +204,6 @@ pub struct Data {
     pub per_unit_force: bool,
     /// Whether a channel is not relied on: then the model is not taken for exact either.
     pub doubted: bool,
-    /// Whether a high-pass or a delay of all motions against the force was found and mended.
-    pub chain_mended: bool,
     /// Whether the runs are those that tell most of more.
     pub chosen: bool,
     /// Rows of the DOFs that are rotations.
@@ -238,7 +236,6 @@ impl Data {
             excluded: Vec::new(),
             per_unit_force,
             doubted: false,
-            chain_mended: false,
             chosen: false,
             rotations,
             sessions: Vec::new(),

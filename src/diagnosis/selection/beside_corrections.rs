@@ -32,37 +32,18 @@ const RAISED: f64 = 1.1;
 /// than chance or one run on another branch would bring them.
 const HALVED: f64 = 0.5;
 
-/// The search with the updating parameters free, or what is wrong with a channel or with the measuring chain of all.
+/// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
+/// then the model updated beside the best of them, and the candidates again.
 pub(super) fn beside_updating(
     reference: ReferenceModel<'_>,
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
+    let stated = reference.estimator().error(&reference.predictions);
     let bare = reference.bare()?;
     // Before candidates are refined, which takes long: what differs from run to run may be more than tests usually differ by.
     let corrected = bare.likely()?;
-    if let Some(fault) = corrected.0.chain_fault_beside(None)? {
-        return Ok(Err(fault));
-    }
-    let outcome = match effects_beside((&reference, before), &bare, corrected)? {
-        Ok(outcome) => outcome,
-        Err(fault) => return Ok(Err(fault)),
-    };
-    // Beside a law that was missing a chain shows as it did not before.
-    let best = outcome.found.by_size.last().map(|sets| &sets.fits[0]);
-    let fault = outcome.reference.chain_fault_beside(best)?;
-    Ok(fault.map_or(Ok(outcome), Err))
-}
-
-/// The search for effects beside corrections: at each stage the candidates seen from the model as it was updated last, then the model
-/// updated beside the best of them, and the candidates again. `corrected` is the model with corrections alone, and its evidence.
-fn effects_beside<'a>(
-    (reference, before): (&ReferenceModel<'a>, f64),
-    bare: &ReferenceModel<'a>,
-    corrected: (ReferenceModel<'a>, f64),
-) -> Result<Result<Outcome<'a>, ChannelFault>, DiagnosisError> {
-    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
-    let stated = reference.estimator().error(&reference.predictions);
-    let (mut here, first) = match first_candidates((reference, before), bare, &corrected.0)? {
+    let (mut here, first) = match first_candidates((&reference, before), &bare, &corrected.0)? {
         First::Fits(here, fits) => (here, fits),
         First::None(likely) => {
             found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
@@ -106,7 +87,7 @@ fn effects_beside<'a>(
         let best = &weighed.fits[0];
         let scale = scale_of(&weighed.fits, weighed.reference.count());
         if from.is_none() {
-            ((likely, least), told_alone) = rival((likely, least), bare, &weighed, stated)?;
+            ((likely, least), told_alone) = rival((likely, least), &bare, &weighed, stated)?;
         }
         let raises = raises_error(best.error, from.as_ref().map(|from| from.error), stated);
         let known = best.parameters < weighed.reference.count();

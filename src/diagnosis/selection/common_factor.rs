@@ -3,16 +3,15 @@
 //! Every run may have one of its own in the search (level of the force, discrepancy), which laboratories report at some tenths of
 //! a per cent. Its scale is estimated; where it comes out far beyond that it hides what should be told: a measuring chain, or a law.
 
-use crate::diagnosis::channels::chain::{Explained, Ratio, explained};
-use crate::diagnosis::channels::fault::{ChannelFault, Fault};
-use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::energy_balance::scaled_factors;
-use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::residual::prediction::RunPrediction;
 use crate::diagnosis::result::CommonFactor;
-use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use faer::c64;
 use std::f64::consts::TAU;
+
+/// Circular frequency of a run, rad/s, and its measured over its predicted motion.
+type Ratio = (f64, c64);
 
 /// Scale of the factors from which on they are looked at: seven times that of laboratories.
 const LARGE: f64 = 0.02;
@@ -26,49 +25,20 @@ const ONE_MODE: f64 = 0.1;
 const FEWEST: usize = 2;
 
 impl ReferenceModel<'_> {
-    /// The measuring chain that explains the factors on the motions of all runs beside the corrections and the effects of a fit, if
-    /// they are large.
-    pub(super) fn chain_fault_beside(&self, fit: Option<&FittedModel>) -> Result<Option<ChannelFault>, DiagnosisError> {
-        if self.data.chain_mended || !self.is_far_from_chains() || self.control.is_late() {
-            return Ok(None);
-        }
-        let found = match fit {
-            None => explained(&self.ratios(&self.predictions)),
-            Some(fit) => explained(&self.ratios(&self.estimator().predict(&fit.effects, &FINAL, &fit.starts)?)),
-        };
-        Ok(found.map(|found| self.fault_of(&found)))
-    }
-
     /// The factors that all motions have in common, by frequency, where they are turned there by more than chains and models out of
     /// tune turn them.
     pub(super) fn common_factors(&self, predictions: &[RunPrediction]) -> Vec<CommonFactor> {
-        if !self.is_far_from_chains() {
+        if self.linearisation.updating.scales.response < LARGE {
             return Vec::new();
         }
         let groups = by_mode(&self.ratios(predictions));
         if is_turned(&groups) { groups.iter().map(|group| factor(group)).collect() } else { Vec::new() }
     }
 
-    fn is_far_from_chains(&self) -> bool {
-        self.linearisation.updating.scales.response > LARGE
-    }
-
     /// Measured over predicted motion of every run.
     fn ratios(&self, predictions: &[RunPrediction]) -> Vec<Ratio> {
         let pairs = self.data.runs.iter().zip(predictions);
         pairs.filter_map(|(run, p)| Some((run.omega, *scaled_factors(run, p).first()?))).collect()
-    }
-
-    fn fault_of(&self, found: &Explained) -> ChannelFault {
-        let [motions, forces] = self.data.channel_names();
-        ChannelFault {
-            fault: Fault::Chain(found.fault),
-            channels: if found.of_force { forces } else { motions },
-            error_before: found.error[0],
-            error_after: found.error[1],
-            own_error: found.error,
-            frequencies: found.shown,
-        }
     }
 }
 

@@ -10,9 +10,6 @@ use crate::structure::{Direction, Structure};
 pub(super) fn mend(table: &mut FrfTable, mending: &Mending, on: &Structure) -> Result<(), String> {
     let labels: Vec<&str> = mending.channels.iter().map(|name| label_of(name)).collect();
     let of_force = mending.channels.iter().all(|name| name.starts_with("force@"));
-    if mending.delay.is_some() {
-        return Err("frequency responses have no delay; mend the file".to_owned());
-    }
     match (mending.factor, &labels[..]) {
         // One scale holds for all functions of a file.
         (Some(factor), _) if of_force || labels.len() > 1 => {

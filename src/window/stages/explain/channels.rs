@@ -2,7 +2,7 @@
 
 use super::deed::Deed;
 use crate::diagnosis::Diagnosis;
-use crate::diagnosis::channels::{Chain, ChainFault, ChannelFault, Fault};
+use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::display::format::in_words;
 use crate::window::app::Ask;
 use crate::window::language::tr;
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
     ui.add_space(space::XS);
 }
 
-/// A channel that scatters, and a high-pass, have no mapping that mends them.
+/// A channel that scatters has no mapping that mends it.
 fn is_mendable(fault: &ChannelFault) -> bool {
-    !matches!(fault.fault, Fault::Unreliable(_) | Fault::Chain(ChainFault { chain: Chain::HighPass, .. }))
+    !matches!(fault.fault, Fault::Unreliable(_))
 }
