@@ -245,7 +245,7 @@ pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
     let variances = told.noise.updating.variances();
     let correction = |(k, parameter): (usize, &UpdatingParameter)| {
         let deviation = told.linearisation.updating.prior(k) * variances.get(k)?.sqrt();
-        let factor = updating.values[k].exp();
+        let factor = updating.factor(k);
         parameter.is_stated().then(|| Correction {
             parameter: parameter.clone(),
             factor,

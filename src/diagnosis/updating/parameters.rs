@@ -253,7 +253,8 @@ impl Updating {
         Self { scales, ..self.clone() }
     }
 
-    fn factor(&self, k: usize) -> f64 {
+    /// Factor of parameter `k`, of stiffnesses, masses and sizes, as the updated model has it.
+    pub(crate) fn factor(&self, k: usize) -> f64 {
         self.values[k].clamp(-LARGEST, LARGEST).exp()
     }
 
@@ -354,6 +355,10 @@ mod tests {
         assert!((moved.structure(&structure).matrices().unwrap().stiffness[(0, 1)] + 22.0).abs() < 1e-9);
         assert!((moved.known(&known)[0].parameters[0] - 4.5).abs() < 1e-12);
         assert!((moved.standardised()[0] - 100.0 * 2.0_f64.ln()).abs() < 1e-9);
+        // The factor that is told is that of the model, also where it is at its bound (7.39; the coupling is 11 N/m).
+        let far = Updating { values: vec![5.0, 0.0], ..moved };
+        let stiffness = far.structure(&structure).matrices().unwrap().stiffness[(0, 1)];
+        assert!((stiffness + 11.0 * far.factor(0)).abs() < 1e-9 && (far.factor(0) - 2.0_f64.exp()).abs() < 1e-12);
     }
 
     /// Both supports of a beam, then one of them, each as soft as the element beside it; all else as it was.
