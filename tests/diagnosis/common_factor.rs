@@ -44,14 +44,17 @@ fn diagnosed(runs: &[Run]) -> Diagnosis {
     diagnose(&Problem { structure: &structure, sources: &sources, runs }, &Control::unattended()).unwrap()
 }
 
+/// An AC-coupled chain is no model out of tune, and no law of the structure gives it: what is told is that all motions are turned together,
+/// or the delay that comes next to it.
 #[test]
-fn an_ac_coupled_chain_is_told_by_how_it_turns_all_motions() {
+fn an_ac_coupled_chain_is_no_model_out_of_tune() {
     let corner = 1.5;
     let circuit = |omega: f64| c64::new(0.0, omega) / c64::new(TAU * corner, omega);
     let diagnosis = diagnosed(&runs(circuit));
-    assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{:?}", diagnosis.suggestions);
-    let leads: Vec<f64> = diagnosis.common_factors.iter().map(|factor| factor.lead_deg).collect();
-    assert!(leads.len() == 3 && leads.is_sorted_by(|a, b| a > b) && leads[2] > 1.0, "{leads:?}");
+    assert!(!matches!(diagnosis.verdict, Verdict::Detuned | Verdict::Adequate), "{:?}", diagnosis.verdict);
+    let likely = diagnosis.suggestions.iter().filter(|s| s.probability > 0.5);
+    let of_structure: Vec<_> = likely.filter(|s| !matches!(s.added.source.place, Place::Channel(_))).collect();
+    assert!(of_structure.is_empty(), "{of_structure:?}");
 }
 
 #[test]
