@@ -90,8 +90,11 @@ pub(crate) fn place_of_force(problem: &Problem, control: &Control) -> Result<Opt
     Ok(channels::place_of_force(&predictor, &data, &reference.predictions))
 }
 
+/// Measured over predicted motion below which a model without damping is at its resonance there.
+const AT_RESONANCE: f64 = 0.1;
+
 /// Whether a steady run of `problem` is within the width of a resonance that its model lacks: the motion is nearer to a quarter of a
-/// period off the predicted one than to it or its opposite. Between the half-power points of a mode the response lags so far behind
+/// period off the predicted one than to it or its opposite, or next to nothing beside it. Between the half-power points of a mode the response lags so far behind
 /// that of the model without its damping (Ewins, *Modal Testing*, 2.3).
 ///
 /// # Errors
@@ -105,10 +108,11 @@ pub(crate) fn lacks_width(problem: &Problem, control: &Control) -> Result<bool, 
         Err(DiagnosisError::Response { .. }) => return Ok(true),
         Err(error) => return Err(error),
     };
-    let turned = |(run, prediction): (&RunData, &RunPrediction)| {
-        !prediction.found || scaled_factors(run, prediction).first().is_some_and(|z| z.im.abs() > z.re.abs())
+    let within = |(run, prediction): (&RunData, &RunPrediction)| {
+        let factor = scaled_factors(run, prediction).first().copied();
+        !prediction.found || factor.is_some_and(|z| z.im.abs() > z.re.abs() || z.norm() < AT_RESONANCE)
     };
-    Ok(data.runs.iter().zip(&predictions).any(turned))
+    Ok(data.runs.iter().zip(&predictions).any(within))
 }
 
 /// What is found on the runs of `data`.

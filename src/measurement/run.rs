@@ -95,24 +95,9 @@ impl Run {
         let raw = fit_at(&record, frequency_hz, harmonics)?;
         let noise_ratio = noise_ratio(&raw);
         let mut findings = quality::assess_record(&record, &raw, frequency_hz);
-        let fit = corrected(raw, corrections);
-        findings.extend(quality::assess_harmonics(&fit));
-        let (session, insisted, per_unit_force, functions, on_moving_base) = (None, false, false, None, false);
-        let record = Some(record);
-        Ok(Self {
-            file,
-            level,
-            session,
-            enabled,
-            insisted,
-            record,
-            fit,
-            noise_ratio,
-            findings,
-            per_unit_force,
-            functions,
-            on_moving_base,
-        })
+        let run = Self::from_harmonics(file, level, enabled, raw, corrections);
+        findings.extend(run.findings);
+        Ok(Self { record: Some(record), noise_ratio, findings, ..run })
     }
 
     /// Takes harmonics that were fitted elsewhere.
@@ -125,22 +110,19 @@ impl Run {
     ) -> Self {
         let fit = corrected(fit, corrections);
         let findings = quality::assess_harmonics(&fit);
-        let (session, insisted, per_unit_force, functions, on_moving_base) = (None, false, false, None, false);
-        let noise_ratio = noise_ratio(&fit);
-        let record = None;
         Self {
+            noise_ratio: noise_ratio(&fit),
             file,
             level,
-            session,
+            session: None,
             enabled,
-            insisted,
-            record,
+            insisted: false,
+            record: None,
             fit,
-            noise_ratio,
             findings,
-            per_unit_force,
-            functions,
-            on_moving_base,
+            per_unit_force: false,
+            functions: None,
+            on_moving_base: false,
         }
     }
 
