@@ -5,7 +5,7 @@ use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{FittedSets, Found, explains_by_scatter, same_set};
+use crate::diagnosis::selection::found::{FittedSets, Found, explains_by_scatter, leaves_much, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::sentences::sentences;
@@ -64,7 +64,8 @@ impl Outcome<'_> {
         let promised = self.promised(&quiet, best)?;
         let best = promised.as_ref().unwrap_or(best);
         let misfit = best.chi_square / reference.count().max(1) as f64;
-        let trust = if misfit > TOLERATED || !quiet.linearisation.updating.is_believable() { UNTRUSTED } else { 1.0 };
+        let doubtful = !quiet.linearisation.updating.is_believable() || leaves_much(best.error, diagnosis.noise_floor);
+        let trust = if misfit > TOLERATED || doubtful { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
         let ordered = order(&quiet.estimator(), best, &by_size[0])?;
         for set in &ordered {

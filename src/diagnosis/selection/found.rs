@@ -26,6 +26,9 @@ const LAST_ERROR: f64 = 2e-3;
 const SCATTERED: f64 = 0.3;
 const SCATTERED_FLOORS: f64 = 10.0;
 
+const RELIED_ON: f64 = 0.1;
+const RELIED_ON_FLOORS: f64 = 20.0;
+
 /// Sets of effects of one size, fitted, best first.
 pub(crate) struct FittedSets {
     pub fits: Vec<FittedModel>,
@@ -101,6 +104,12 @@ pub(super) fn explains_by_scatter(error: f64, noise_floor: f64) -> bool {
     error > SCATTERED && error > SCATTERED_FLOORS * noise_floor
 }
 
+/// Whether effects leave more of the response, all runs alike, than one would rely on: 10 % and twenty noise floors, whatever is free from
+/// run to run hides. Of four such projects of the development seeds and of seeds 4000 to 4047 one had the law and place that were told.
+pub(super) fn leaves_much(error: f64, noise_floor: f64) -> bool {
+    error > RELIED_ON && error > RELIED_ON_FLOORS * noise_floor
+}
+
 /// The best fit of every set.
 pub(crate) fn distinct(fits: Vec<FittedModel>) -> Vec<FittedModel> {
     let mut kept: Vec<FittedModel> = Vec::with_capacity(fits.len());
@@ -119,12 +128,19 @@ pub(crate) fn same_set(a: &[Source], b: &[Source]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::explains_by_scatter;
+    use super::{explains_by_scatter, leaves_much};
 
     /// What laboratories leave that are only detuned is no scatter, how many floors it may be; nor is what is noise.
     #[test]
     fn runs_scatter_by_a_share_of_the_response() {
         assert!(explains_by_scatter(0.806, 0.0066));
         assert!(!explains_by_scatter(0.047, 0.0004) && !explains_by_scatter(0.5, 0.4));
+    }
+
+    /// A law that leaves 25 % is not relied on, one of a joint that re-seats, and one beside as much noise, are.
+    #[test]
+    fn a_law_that_leaves_much_is_not_relied_on() {
+        assert!(leaves_much(0.249, 0.0078));
+        assert!(!leaves_much(0.06, 0.001) && !leaves_much(0.136, 0.01) && !leaves_much(0.28, 0.11));
     }
 }
