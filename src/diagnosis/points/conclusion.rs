@@ -106,11 +106,14 @@ fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, (first, top): (&[Fitted
         }
         let with = top.iter().zip(&weights).filter(|(f, _)| contains(f, &added.source));
         let probability = trust * with.map(|(_, w)| w).sum::<f64>().min(1.0);
+        // Beside corrections the set is added as a whole.
+        let of_set = (!diagnosis.corrections.is_empty() && contains(&top[0], &added.source)).then_some(&top[0]);
         let alone = first.iter().find(|f| contains(f, &added.source)).unwrap_or(fit);
+        let told = of_set.unwrap_or(alone);
         diagnosis.suggestions.push(Suggestion {
             added: added.clone(),
-            error_after: alone.error,
-            held_out_error_after: alone.held_out,
+            error_after: told.error,
+            held_out_error_after: told.held_out,
             probability,
             evidence: sentences(added, diagnosis.error_before, alone.error),
             indistinguishable_from: alike(top, &added.source),
