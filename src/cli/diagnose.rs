@@ -342,6 +342,7 @@ fn added(document: &Document, source: &Source) -> anyhow::Result<Document> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::diagnosis::result::{Step, Verdict};
     use crate::diagnosis::updating::correction::Correction;

@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 /// One run with its fitted harmonics, corrected for the known errors of its channels.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own, and all may be true")]
 pub struct Run {
     /// Name of the file (or of the run in a harmonics file), for messages and results.
     pub file: String,

@@ -120,7 +120,7 @@ pub(crate) fn positive(name: impl Into<String>, value: f64, unit: &'static str) 
 
 /// Fails unless `value` is at least zero and a physical quantity.
 pub(crate) fn not_negative(name: impl Into<String>, value: f64, unit: &'static str) -> Result<(), StructureError> {
-    if value >= 0.0 && value <= GREATEST {
+    if (0.0..=GREATEST).contains(&value) {
         Ok(())
     } else {
         Err(StructureError::Negative { name: name.into(), value, unit })

@@ -52,8 +52,7 @@ pub(super) fn beside_updating(
         First::Unreliable(fault) => return Ok(Err(fault)),
     };
     let mut first = Some(first);
-    let (mut likely, mut least) = corrected;
-    let mut told_alone = false;
+    let ((mut likely, mut least), mut told_alone) = (corrected, false);
     let by_modes = bare.linearisation.updating.is_by_modes();
     while found.by_size.len() < MOST_EFFECTS && (found.by_size.is_empty() || !here.control.is_late()) {
         let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());

@@ -49,12 +49,11 @@ impl FittedSets {
         for (fit, &probability) in self.fits.iter().zip(&self.probabilities) {
             let undetermined = || fit.effects.iter().zip(&fit.deviations).any(|(e, d)| is_undetermined(e, d));
             let wider = |best: &FittedModel| is_limit(&best.effects, &fit.effects) && undetermined();
-            match kept.probabilities.first_mut().filter(|_| wider(&self.fits[0])) {
-                Some(first) => *first += probability,
-                None => {
-                    kept.fits.push(fit.clone());
-                    kept.probabilities.push(probability);
-                }
+            if let Some(first) = kept.probabilities.first_mut().filter(|_| wider(&self.fits[0])) {
+                *first += probability;
+            } else {
+                kept.fits.push(fit.clone());
+                kept.probabilities.push(probability);
             }
         }
         kept

@@ -53,12 +53,12 @@ impl Trial {
         let Some((dof, force)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let omega = |k: usize| 0.9 * low * (1.1 * high / (0.9 * low)).powf(k as f64 / (FREQUENCIES - 1) as f64);
         let base = base_forces(reference);
-        let trial = |k: usize, level: f64| match &base {
-            Some(forces) => Self { excitation: of_base(omega(k), forces, level), dof, force, times: Some(level) },
-            None => {
-                let force = level * force;
-                Self { excitation: Excitation::sine(omega(k), dof, c64::new(force, 0.0)), dof, force, times: None }
+        let trial = |k: usize, level: f64| {
+            if let Some(forces) = &base {
+                return Self { excitation: of_base(omega(k), forces, level), dof, force, times: Some(level) };
             }
+            let force = level * force;
+            Self { excitation: Excitation::sine(omega(k), dof, c64::new(force, 0.0)), dof, force, times: None }
         };
         (0..FREQUENCIES).flat_map(|k| LEVELS.map(|level| trial(k, level))).collect()
     }
