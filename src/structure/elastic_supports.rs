@@ -15,26 +15,36 @@
 //!
 //! (SEREP with all modes: O'Callahan, Avitabile and Riemer 1989).
 
+use super::factors::Part;
 use super::matrices::{Element, SystemMatrices};
-use super::share::{HeldDof, Share, Triplets, add};
+use super::share::{HeldDof, Share, add};
 use crate::math::eigen::generalised_symmetric;
 use dashpot_numerics::RealLu;
 use faer::Mat;
+use std::sync::OnceLock;
 
 /// Share of the modes that are put right: those above are no modes of the structure, but of its mesh.
 const PUT_RIGHT: f64 = 0.75;
 /// Least `g` of a support whose held DOF is followed as it moves.
 const SOFT: f64 = 1e-3;
+/// Largest `g`, of either sign, up to which the matrices are linear in it.
+const LINEAR: f64 = 1.1 * SOFT;
 
 /// The supports of a structure that give way.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ElasticSupports {
     /// Matrices on rigid supports.
     pub(super) rigid: SystemMatrices,
     /// Factors `f` of the held DOFs.
     pub(super) factors: Vec<(HeldDof, f64)>,
-    /// Motion of each held DOF by those that are not held: `u_h = t^T u`.
-    motions: Vec<Vec<f64>>,
+    /// Changes of the matrices by the logarithms of the factors of parts, once they were asked for.
+    pub(super) slopes: OnceLock<Vec<(Part, Share)>>,
+}
+
+impl PartialEq for ElasticSupports {
+    fn eq(&self, other: &Self) -> bool {
+        self.rigid == other.rigid && self.factors == other.factors
+    }
 }
 
 impl ElasticSupports {
@@ -52,7 +62,6 @@ impl ElasticSupports {
         if held.iter().all(|(_, g)| *g == 0.0) {
             return None;
         }
-        let n = rigid.mass.ncols();
         // Those that hardly give way, or are stiffer than rigid, move nothing fast: they are condensed in any case.
         let (mut base, mut condensed) = (rigid.clone(), rigid.clone());
         for (column, g) in &held {
@@ -61,20 +70,12 @@ impl ElasticSupports {
                 column.condense(&mut base, *g);
             }
         }
-        let mut motions: Vec<Vec<f64>> = held.iter().map(|(column, g)| column.motion(n, *g)).collect();
         let soft: Vec<usize> = (0..held.len()).filter(|&k| held[k].1 >= SOFT).collect();
         // Two held DOFs of one element would be coupled.
         let alone = |k: &usize| !soft.iter().any(|o| o != k && factors[*o].0.element == factors[*k].0.element);
         let springs: Vec<&(HeldColumn, f64)> = soft.iter().map(|&k| &held[k]).collect();
         let found = if soft.iter().all(alone) { put_right(&base, &condensed, &springs) } else { None };
-        let matrices = match found {
-            Some((matrices, own)) => {
-                soft.iter().zip(own).for_each(|(&k, motion)| motions[k] = motion);
-                matrices
-            }
-            None => condensed,
-        };
-        Some((Self { rigid, factors, motions }, matrices))
+        Some((Self { rigid, factors, slopes: OnceLock::new() }, found.unwrap_or(condensed)))
     }
 
     /// Factors with one more, multiplied with that of the same DOF where there is one.
@@ -85,47 +86,24 @@ impl ElasticSupports {
         }
     }
 
-    /// Change of the matrices by the logarithm of the factor of a support: of its spring, `dk_s = k_hh f / (1 - f)^2`, along its motion;
-    /// `None` where it is rigid.
-    pub(super) fn share(&self, elements: &[Element], held: HeldDof) -> Option<Share> {
-        let own = self.factors.iter().position(|(other, _)| *other == held)?;
-        let (factor, column) = (self.factors[own].1, HeldColumn::new(elements, held)?);
-        if 1.0 - factor < SOFT {
-            let Share { stiffness, mass } = column.share();
-            let scaled = |list: Triplets| list.into_iter().map(|(i, j, v)| (i, j, factor * v)).collect();
-            return Some(Share { stiffness: scaled(stiffness), mass: scaled(mass) });
-        }
-        let size = column.stiffness * factor / (1.0 - factor).powi(2);
-        let mut share = Share::default();
-        add_square(&mut share.stiffness, &self.motions[own], size);
-        Some(share)
+    /// Factor of a support of these.
+    pub(super) fn factor(&self, held: HeldDof) -> Option<f64> {
+        self.factors.iter().find(|(own, _)| *own == held).map(|(_, factor)| *factor)
     }
 
-    /// What elements `first..=last` have beside the entries of their DOFs that are not held: those of the held ones along their
-    /// motions, of their stiffness with the springs that are in proportion to it.
-    pub(super) fn of_elements(&self, elements: &[Element], [first, last]: [usize; 2], mass: bool) -> Triplets {
-        let mut entries = Triplets::new();
-        for ((held, factor), motion) in self.factors.iter().zip(&self.motions) {
-            let moves = 1.0 - factor >= SOFT && (first..=last).contains(&held.element);
-            let Some(column) = HeldColumn::new(elements, *held).filter(|_| moves) else { continue };
-            for &(row, k, m) in &column.rows {
-                for (j, t) in motion.iter().enumerate().filter(|(_, t)| **t != 0.0) {
-                    let value = if mass { m * t } else { k * t };
-                    entries.extend([(row, j, value), (j, row, value)]);
-                }
-            }
-            let own = if mass { column.mass } else { column.stiffness / (1.0 - factor) };
-            add_square(&mut entries, motion, own);
-        }
-        entries
-    }
-}
-
-/// Adds `size t t^T`.
-fn add_square(entries: &mut Triplets, motion: &[f64], size: f64) {
-    let moving = || motion.iter().enumerate().filter(|(_, t)| **t != 0.0);
-    for (i, a) in moving() {
-        entries.extend(moving().map(|(j, b)| (i, j, size * a * b)));
+    /// The parts whose shares are no sums over elements, because held DOFs move with them: supports that are not all but rigid, and the
+    /// elements next to them.
+    pub(super) fn parts(&self) -> Vec<Part> {
+        let moving = self.factors.iter().filter(|(_, factor)| (1.0 - factor).abs() > LINEAR).map(|(held, _)| *held);
+        let mut parts: Vec<Part> = moving
+            .flat_map(|held| {
+                let element = [held.element; 2];
+                [Part::Support(held), Part::ElementStiffness(element), Part::ElementMass(element)]
+            })
+            .collect();
+        parts.sort_unstable();
+        parts.dedup();
+        parts
     }
 }
 
@@ -156,13 +134,6 @@ impl HeldColumn {
             }
         }
         share
-    }
-
-    /// The motion of the DOF where nothing moves fast, `-g b`, by `n` DOFs.
-    fn motion(&self, n: usize, g: f64) -> Vec<f64> {
-        let mut motion = vec![0.0; n];
-        self.rows.iter().for_each(|(row, k, _)| motion[*row] = -g * k / self.stiffness);
-        motion
     }
 
     /// Condenses the DOF statically: `K - g k_h k_h^T / k_hh`, `M - g (m_h b^T + b m_h^T) + g^2 m_hh b b^T`.
@@ -199,12 +170,8 @@ fn with_held(matrices: &SystemMatrices, held: &[&(HeldColumn, f64)]) -> SystemMa
     SystemMatrices { mass, stiffness }
 }
 
-/// The `condensed` matrices with the lower modes of those with the held DOFs, and the motions of these; `None` where they cannot be had.
-fn put_right(
-    base: &SystemMatrices,
-    condensed: &SystemMatrices,
-    held: &[&(HeldColumn, f64)],
-) -> Option<(SystemMatrices, Vec<Vec<f64>>)> {
+/// The `condensed` matrices with the lower modes of those with the held DOFs; `None` where they cannot be had.
+fn put_right(base: &SystemMatrices, condensed: &SystemMatrices, held: &[&(HeldColumn, f64)]) -> Option<SystemMatrices> {
     if held.is_empty() {
         return None;
     }
@@ -221,15 +188,8 @@ fn put_right(
         Mat::from_fn(n, n, |i, j| 0.5 * (product[(i, j)] + product[(j, i)]))
     };
     let found = SystemMatrices { mass: product(&|_| 1.0), stiffness: product(&square) };
-    let motion = |(at, (column, g)): (usize, &&(HeldColumn, f64))| {
-        let still = column.motion(n, *g);
-        let above = |r: usize| (0..n).map(|i| still[i] * own.vectors[(i, r)]).sum::<f64>();
-        let by_mode: Vec<f64> = (0..n).map(|r| if r < lower { exact.vectors[(n + at, r)] } else { above(r) }).collect();
-        (0..n).map(|j| (0..n).map(|r| by_mode[r] * inverse[(r, j)]).sum()).collect::<Vec<f64>>()
-    };
-    let motions: Vec<Vec<f64>> = held.iter().enumerate().map(motion).collect();
     let finite = |matrix: &Mat<f64>| matrix.col_iter().all(|c| c.iter().all(|x| x.is_finite()));
-    (finite(&found.mass) && finite(&found.stiffness)).then_some((found, motions))
+    (finite(&found.mass) && finite(&found.stiffness)).then_some(found)
 }
 
 #[cfg(test)]
@@ -314,16 +274,14 @@ mod tests {
             let share = both.share(part).unwrap();
             let step = 1e-3;
             let [more, less] =
-                [step, -step].map(|by: f64| both.with_factors(&[(part, by.exp())]).modes().unwrap().omega);
-            let modes = both.modes().unwrap();
-            let along = |entries: &Triplets, r: usize| -> f64 {
-                entries.iter().map(|&(i, j, v)| modes.shapes[(i, r)] * v * modes.shapes[(j, r)]).sum()
-            };
-            for r in 0..6 {
-                let square = modes.omega[r].powi(2);
-                let told = along(&share.stiffness, r) - square * along(&share.mass, r);
-                let slope = (more[r].powi(2) - less[r].powi(2)) / (2.0 * step);
-                assert!((told - slope).abs() < 1e-4 * square, "{part:?} mode {r}: {told} {slope}");
+                [step, -step].map(|by: f64| both.with_factors(&[(part, by.exp())]).matrices().unwrap().clone());
+            let differences =
+                [(&share.stiffness, &more.stiffness - &less.stiffness), (&share.mass, &more.mass - &less.mass)];
+            for (told, difference) in differences {
+                let mut left = &difference * faer::Scale(0.5 / step);
+                let size = left.norm_max();
+                add(&mut left, told, -1.0);
+                assert!(left.norm_max() < 1e-4 * size, "{part:?}: {} of {size}", left.norm_max());
             }
         }
     }

@@ -14,6 +14,9 @@ use super::share::{HeldDof, Share, Triplets, add};
 use super::system::{Structure, StructureKind};
 use faer::Mat;
 
+/// Change of the logarithm of a factor for derivatives by differences.
+const STEP: f64 = 1e-5;
+
 /// A part of a structure; rows are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Part {
@@ -51,8 +54,8 @@ impl Structure {
         };
         Some(match part {
             Part::Stiffness | Part::Mass | Part::Mode(_) | Part::ModeDamping(_) => return None,
-            Part::ElementStiffness(range) => Share::of_stiffness(self.of_elements(range, false)),
-            Part::ElementMass(range) => Share::of_mass(self.of_elements(range, true)),
+            Part::ElementStiffness(range) => self.of_elements(range, false),
+            Part::ElementMass(range) => self.of_elements(range, true),
             Part::GroundSpring(i) => Share::of_stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
             Part::Coupling([i, j]) => Share::of_stiffness(spring(i, j)),
             Part::PointMass(i) => Share::of_mass(vec![(i, i, matrices.mass[(i, i)])]),
@@ -60,11 +63,33 @@ impl Structure {
         })
     }
 
-    /// The change of the matrices by a support, of one that is rigid to first order in what it gives way.
+    /// The change of the matrices by a support, of one that hardly gives way to first order in that.
     fn of_support(&self, held: HeldDof) -> Option<Share> {
-        let elastic = self.origin.elastic_supports.as_ref();
-        let known = elastic.and_then(|supports| supports.share(&self.elements, held));
-        known.or_else(|| HeldColumn::new(&self.elements, held).map(|column| column.share()))
+        if let Some(share) = self.slope_beside_supports(Part::Support(held)) {
+            return Some(share.clone());
+        }
+        let factor = self.origin.elastic_supports.as_ref().and_then(|supports| supports.factor(held)).unwrap_or(1.0);
+        let Share { stiffness, mass } = HeldColumn::new(&self.elements, held)?.share();
+        let scaled = |list: Triplets| list.into_iter().map(|(i, j, v)| (i, j, factor * v)).collect();
+        Some(Share { stiffness: scaled(stiffness), mass: scaled(mass) })
+    }
+
+    /// The change of the matrices by a part with which held DOFs move; none where none does.
+    fn slope_beside_supports(&self, part: Part) -> Option<&Share> {
+        let supports = self.origin.elastic_supports.as_ref()?;
+        let slope = |part: Part| Some((part, self.slope(part)?));
+        let slopes = supports.slopes.get_or_init(|| supports.parts().into_iter().filter_map(slope).collect());
+        slopes.iter().find(|(own, _)| *own == part).map(|(_, share)| share)
+    }
+
+    /// Derivative of the matrices by the logarithm of the factor of a part, by differences.
+    fn slope(&self, part: Part) -> Option<Share> {
+        let (own, more) = (self.matrices.as_ref()?, self.with_factors(&[(part, STEP.exp())]).matrices?);
+        let entries = |own: &Mat<f64>, more: &Mat<f64>| -> Triplets {
+            let entry = |i: usize, j: usize| (i, j, (more[(i, j)] - own[(i, j)]) / STEP);
+            (0..own.ncols()).flat_map(|j| (0..own.nrows()).map(move |i| entry(i, j))).collect()
+        };
+        Some(Share { stiffness: entries(&own.stiffness, &more.stiffness), mass: entries(&own.mass, &more.mass) })
     }
 
     /// The support of each end of a beam that most likely gives way: the rotation of a clamp, the translation of a pin.
@@ -88,12 +113,18 @@ impl Structure {
         self.elements.get(held.element).map(|element| element.stiffness[(held.dof, held.dof)])
     }
 
-    fn of_elements(&self, [first, last]: [usize; 2], mass: bool) -> Triplets {
-        let elastic = self.origin.elastic_supports.as_ref();
-        let held = elastic.map(|supports| supports.of_elements(&self.elements, [first, last], mass));
-        let mut entries = held.unwrap_or_default();
-        for element in self.elements.iter().take(last + 1).skip(first) {
-            let local = if mass { &element.mass } else { &element.stiffness };
+    /// The share of the elements `first..=last`, their mass or their stiffness.
+    fn of_elements(&self, [first, last]: [usize; 2], mass: bool) -> Share {
+        let mut share = Share::default();
+        for (e, element) in self.elements.iter().enumerate().take(last + 1).skip(first) {
+            let part = if mass { Part::ElementMass([e; 2]) } else { Part::ElementStiffness([e; 2]) };
+            if let Some(Share { stiffness, mass }) = self.slope_beside_supports(part) {
+                share.stiffness.extend(stiffness);
+                share.mass.extend(mass);
+                continue;
+            }
+            let (local, entries) =
+                if mass { (&element.mass, &mut share.mass) } else { (&element.stiffness, &mut share.stiffness) };
             for (a, row) in element.dofs.iter().enumerate() {
                 for (b, column) in element.dofs.iter().enumerate() {
                     if let (Some(row), Some(column)) = (row, column) {
@@ -102,7 +133,7 @@ impl Structure {
                 }
             }
         }
-        entries
+        share
     }
 
     /// The same structure with its parts multiplied by positive factors; a part named twice is multiplied twice.
