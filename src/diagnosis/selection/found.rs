@@ -73,8 +73,13 @@ pub(crate) struct Found {
 
 /// Whether a squared residual with `parameters` fitted is that of noise.
 pub(crate) fn agrees(reference: &ReferenceModel, chi_square: f64, parameters: usize) -> bool {
+    chi_square <= most_of_noise(reference, parameters)
+}
+
+/// Greatest squared residual with `parameters` fitted that noise would leave.
+pub(super) fn most_of_noise(reference: &ReferenceModel, parameters: usize) -> f64 {
     let n = reference.count().saturating_sub(parameters) as f64;
-    chi_square <= n + AGREES * (2.0 * n).sqrt()
+    n + AGREES * (2.0 * n).sqrt()
 }
 
 /// Whether what a fit leaves is no more than what records and integrators are wrong by, where the model as it is has the

@@ -18,6 +18,7 @@ use crate::diagnosis::selection::levenberg_marquardt::{Residual, descend};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::diagnosis::updating::parameters::Updating;
+use crate::diagnosis::updating::scales::Scales;
 use crate::effects::{Kind, Source};
 use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
@@ -25,7 +26,8 @@ use faer::{Mat, c64};
 
 /// Step of a variable of a channel for derivatives by differences.
 const STEP: f64 = 1e-4;
-/// Prior deviations in one natural unit of an updating parameter or a shift: steps are limited in such units.
+/// Prior deviations, as the search has them or wider, in one natural unit of an updating parameter or a shift: steps are limited in
+/// such units. How far the response may be followed does not depend on how sure the data are of a parameter.
 const UNIT: f64 = 3.0;
 /// Gain of the squared residual, in units of what is left per datum, below which a fit has arrived: a quarter of the evidence to
 /// which a model is settled, in rounds of which every one starts from where the last one ended.
@@ -43,25 +45,37 @@ pub(super) struct JointFit {
 
 impl ReferenceModel<'_> {
     /// Fits `effects`, the updating parameters of the model and the stiffness of each run together, in at most `steps` steps,
-    /// with responses that start from `starts`.
+    /// with responses that start from `starts`, so far as the squared residual may get below `most`.
     pub(super) fn joint_fit(
         &self,
-        effects: &[Source],
-        starts: &Starts,
+        (effects, starts): (&[Source], &Starts),
         settings: &Settings,
         steps: usize,
+        most: f64,
     ) -> Result<JointFit, DiagnosisError> {
         let (variables, mut start) = Variables::new(effects);
         let updating = self.linearisation.updating.of_model();
         let of_model: Vec<usize> = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+        let units = natural_units(&updating, &of_model, self.data.runs.len());
         let standardised = updating.standardised();
-        start.extend(of_model.iter().map(|&k| standardised[k] / UNIT));
-        let runs = 0..self.data.runs.len();
-        start.extend(runs.map(|r| updating.shifts.get(r).copied().unwrap_or(0.0) / (UNIT * updating.scales.shift)));
+        let shift = |r: usize| updating.shifts.get(r).copied().unwrap_or(0.0) / updating.scales.shift;
+        let of_runs = (0..self.data.runs.len()).map(shift);
+        let own = of_model.iter().map(|&k| standardised[k]).chain(of_runs);
+        start.extend(own.zip(&units).map(|(deviations, unit)| deviations / unit));
         let noise = self.noise.of_channels(&self.linearisation);
         let (starts, settings) = (starts.clone(), *settings);
-        let mut problem =
-            Joint { reference: self, variables: &variables, updating, of_model, noise, settings, starts, last: None };
+        let mut problem = Joint {
+            reference: self,
+            variables: &variables,
+            updating,
+            of_model,
+            units,
+            noise,
+            settings,
+            most,
+            starts,
+            last: None,
+        };
         let descent = descend(&mut problem, &start, steps)?;
         let trial = problem.trial(&descent.theta)?;
         Ok(JointFit {
@@ -70,6 +84,15 @@ impl ReferenceModel<'_> {
             starts: starts_of(trial.predictions),
         })
     }
+}
+
+/// Prior deviations in the natural unit of each updating parameter `of_model`, then of the shift of each of `runs`.
+fn natural_units(updating: &Updating, of_model: &[usize], runs: usize) -> Vec<f64> {
+    let search = updating.with_scales(Scales::SEARCH);
+    let wider = |searched: f64, own: f64| UNIT * (searched / own).max(1.0);
+    let mut units: Vec<f64> = of_model.iter().map(|&k| wider(search.prior(k), updating.prior(k))).collect();
+    units.extend(vec![wider(search.scales.shift, updating.scales.shift); runs]);
+    units
 }
 
 /// The model at one point.
@@ -88,9 +111,13 @@ struct Joint<'a, 'b> {
     updating: Updating,
     /// Numbers of those of the model.
     of_model: Vec<usize>,
+    /// Prior deviations in the natural unit of each of those, then of each shift.
+    units: Vec<f64>,
     /// Noise, what is linear eliminated.
     noise: NoiseModel,
     settings: Settings,
+    /// Squared residual above which it is of no interest.
+    most: f64,
     /// Responses at the last point that was accepted.
     starts: Starts,
     last: Option<Trial>,
@@ -108,9 +135,10 @@ impl Joint<'_, '_> {
 
     fn updating_at(&self, at: &[f64]) -> Updating {
         let (of_model, shifts) = self.split(at);
+        let (units, of_shifts) = self.units.split_at(self.of_model.len());
         let mut u = self.updating.standardised();
-        self.of_model.iter().zip(of_model).for_each(|(&k, x)| u[k] = x * UNIT);
-        let shifts = shifts.iter().map(|x| x * UNIT * self.updating.scales.shift).collect();
+        self.of_model.iter().zip(of_model).zip(units).for_each(|((&k, x), unit)| u[k] = x * unit);
+        let shifts = shifts.iter().zip(of_shifts).map(|(x, unit)| x * unit * self.updating.scales.shift).collect();
         Updating { shifts, ..self.updating.at(&u) }
     }
 
@@ -135,7 +163,7 @@ impl Joint<'_, '_> {
     fn rows(&self, trial: &Trial) -> Vec<f64> {
         let estimator = self.estimator(&trial.predictor);
         let mut rows = estimator.residual(&trial.predictions);
-        rows.extend(trial.at[self.variables.len()..].iter().map(|x| x * UNIT));
+        rows.extend(trial.at[self.variables.len()..].iter().zip(&self.units).map(|(x, unit)| x * unit));
         rows
     }
 
@@ -150,8 +178,8 @@ impl Joint<'_, '_> {
     /// Derivatives of what is differentiated by the variables, the stiffness last.
     fn factors(&self, at: &[f64]) -> Vec<f64> {
         let mut factors = self.variables.slopes(&at[..self.variables.len()]);
-        factors.extend(self.of_model.iter().map(|&k| UNIT * self.updating.prior(k)));
-        factors.push(UNIT * self.updating.scales.shift);
+        factors.extend(self.of_model.iter().zip(&self.units).map(|(&k, unit)| unit * self.updating.prior(k)));
+        factors.extend(self.units.get(self.of_model.len()).map(|unit| unit * self.updating.scales.shift));
         factors
     }
 
@@ -212,6 +240,10 @@ impl Residual for Joint<'_, '_> {
         ENOUGH
     }
 
+    fn most(&self) -> f64 {
+        self.most
+    }
+
     fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, DiagnosisError> {
         let Some(trial) = if_possible(self.compute(at))? else { return Ok(vec![f64::INFINITY]) };
         let rows = self.rows(&trial);
@@ -235,7 +267,7 @@ impl Residual for Joint<'_, '_> {
                 continue;
             }
             *column = self.noise.updating.column(std::mem::take(column));
-            column.extend((own..at.len()).map(|j| if j == k { UNIT } else { 0.0 }));
+            column.extend((own..at.len()).map(|j| if j == k { self.units[k - own] } else { 0.0 }));
         }
         self.last = Some(trial);
         Ok(Mat::from_fn(residual.len(), at.len(), |i, k| columns[k][i]))
@@ -327,9 +359,11 @@ mod tests {
 
     fn joint<'a, 'b>(reference: &'a ReferenceModel<'b>, variables: &'a Variables) -> Joint<'a, 'b> {
         let updating = reference.linearisation.updating.of_model();
-        let of_model = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+        let of_model: Vec<usize> = (0..updating.len()).filter(|&k| updating.parameters[k].is_of_model()).collect();
+        let units = natural_units(&updating, &of_model, reference.data.runs.len());
         let noise = reference.noise.of_channels(&reference.linearisation);
-        Joint { reference, variables, updating, of_model, noise, settings: FINAL, starts: Vec::new(), last: None }
+        let (settings, most, starts) = (FINAL, f64::INFINITY, Vec::new());
+        Joint { reference, variables, updating, of_model, units, noise, settings, most, starts, last: None }
     }
 
     #[test]
@@ -360,7 +394,7 @@ mod tests {
     fn effect_model_and_drift_of_the_runs_are_found_together() {
         with_base(|reference| {
             let start = Source { parameters: vec![3e6], ..hidden() };
-            let fit = reference.joint_fit(&[start], &Vec::new(), &FINAL, 30).unwrap();
+            let fit = reference.joint_fit((&[start], &Vec::new()), &FINAL, 30, f64::INFINITY).unwrap();
             let size = fit.effects[0].parameters[0];
             assert!((size / 4e6 - 1.0).abs() < 0.02, "{size}");
             // What is common to all runs is the model's; the prior draws the rest to nothing, each run as far as it is not seen.

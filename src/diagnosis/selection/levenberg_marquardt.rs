@@ -78,6 +78,18 @@ pub(crate) trait Residual {
     fn enough(&self) -> f64 {
         ARRIVED
     }
+    /// Squared residual above which where the descent would end is of no interest.
+    fn most(&self) -> f64 {
+        f64::INFINITY
+    }
+}
+
+/// How many times what the linear fit promises a descent may gain where the response bends.
+const BEYOND: f64 = 2.0;
+
+/// Whether what is left, of which the linear fit promises to take away `to_go`, stays above the `most` that is of interest.
+pub(crate) fn is_hopeless(left: f64, to_go: f64, most: f64) -> bool {
+    left - BEYOND * to_go > most
 }
 
 /// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
@@ -90,7 +102,7 @@ const IDLE: usize = 3;
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
 const LONGEST: f64 = 1.5;
 const FIRM: f64 = 1.0;
-/// Damping up to which steps are straight: beyond, the valley bends.
+/// Damping up to which steps are straight, unless a straight one has failed: beyond, the valley bends.
 const STRAIGHT: f64 = 1e-2;
 /// Share of a step at which its bend is measured, and largest share of the bend in the step.
 const AHEAD: f64 = 0.1;
@@ -107,12 +119,12 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
         let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
-        if equations.to_go() < enough || problem.is_late() {
+        let hopeless = is_hopeless(chi_square, equations.to_go(), problem.most());
+        if equations.to_go() < enough || hopeless || problem.is_late() {
             break;
         }
-        let Some((next, after, chi)) = step(problem, &theta, (&residual, &jacobian), &equations, &mut damping)? else {
-            break;
-        };
+        let from = (&theta[..], &residual[..], &jacobian);
+        let Some((next, after, chi)) = step(problem, from, (&equations, enough), &mut damping)? else { break };
         let gain = chi_square - chi;
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
@@ -169,6 +181,12 @@ impl Normal {
         solve_symmetric(damped.as_ref(), column.as_ref()).ok()
     }
 
+    /// What the step `move`, damped so, would take from the squared residual were it linear: `g^T move + damping move^T diag N move`.
+    fn promised(&self, damping: f64, by: &Mat<f64>) -> f64 {
+        let of_variable = |k: usize| by[(k, 0)] * (self.gradient[(k, 0)] + damping * self.matrix[(k, k)] * by[(k, 0)]);
+        (0..by.nrows()).map(of_variable).sum()
+    }
+
     /// `g^T N^-1 g`.
     fn to_go(&self) -> f64 {
         let Some(full) = self.move_by(DAMPING[0]) else { return f64::INFINITY };
@@ -180,18 +198,20 @@ impl Normal {
 /// The next point of a descent with its residual.
 type Point = (Vec<f64>, Vec<f64>, f64);
 
-/// A step that lowers the residual, whose value and derivative at `theta` are given; none if there is no such step.
+/// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that promises `enough`.
 fn step<R: Residual>(
     problem: &mut R,
-    theta: &[f64],
-    (residual, jacobian): (&[f64], &Mat<f64>),
-    equations: &Normal,
+    (theta, residual, jacobian): (&[f64], &[f64], &Mat<f64>),
+    (equations, enough): (&Normal, f64),
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
-    let bounds = problem.bounds();
+    let (bounds, mut failed) = (problem.bounds(), false);
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
+            if failed && equations.promised(*damping, &straight) < enough {
+                return Ok(None);
+            }
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
             // What the data hardly know would run away, and cut short with it all the others would hardly move.
             let largest = straight.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -205,7 +225,7 @@ fn step<R: Residual>(
                 next.iter_mut().zip(&bounds).for_each(|(x, [least, greatest])| *x = x.clamp(*least, *greatest));
                 next
             };
-            let bend = if *damping > STRAIGHT && share == 1.0 {
+            let bend = if (failed || *damping > STRAIGHT) && share == 1.0 {
                 bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
             } else {
                 None
@@ -220,6 +240,7 @@ fn step<R: Residual>(
             if share == 1.0 && (chi_square - chi).abs() < 1e-9 * chi_square {
                 return Ok(None);
             }
+            failed = true;
         }
         *damping *= 8.0;
     }

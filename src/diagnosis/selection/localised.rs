@@ -102,7 +102,12 @@ impl<'a> ReferenceModel<'a> {
                 break;
             }
             breadth = Breadth::All;
+            let least = here.least;
             here = here.seen_wider()?;
+            // The laws that were looked at lead no further than they did.
+            if here.least > FALLING * least {
+                break;
+            }
         }
         if breadth == Breadth::Near && !self.control.is_late() {
             here = here.seen_wider()?;

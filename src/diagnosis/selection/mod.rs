@@ -18,6 +18,7 @@ pub(crate) mod next_test;
 mod pairs;
 pub(crate) mod reference_model;
 mod refinement;
+mod rival;
 pub(crate) mod search;
 pub(crate) mod sentences;
 mod short_list;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
 /// contains another as a limit, the simpler wins unless the data demand the other.
-const EXTRA: f64 = 8.0;
+pub(super) const EXTRA: f64 = 8.0;
 /// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
 const POSING: f64 = 20.0;
 

@@ -1,8 +1,11 @@
 //! Candidates beside updating parameters: laws regressed at the measured motion, each refined with a model of its own.
 
 use super::search::{View, joined};
-use super::short_list::{Breadth, without_falling_friction};
-use super::weighing::{bound_beside, cost};
+use super::short_list::{
+    Breadth, is_plain_friction_of, plain_friction_first, without_falling_friction, without_idle_parameters,
+};
+use super::weighing::{bound_beside, by_simplest_name, cost};
+use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::localisation::free_force::BesideWhole;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
@@ -10,6 +13,7 @@ use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
@@ -34,6 +38,9 @@ const COARSE_FOR_LINEAR: f64 = 1.5;
 /// Best sets whose limits are refined too, and how many times their score those may leave.
 const HEARD: usize = 2;
 const LIMIT: f64 = 2.0;
+/// The same of friction, which is regressed badly where it sticks: plain friction, the hidden one, was not among the candidates of
+/// development project 508.
+const LIMIT_OF_FRICTION: f64 = 10.0;
 /// Candidates that are refined to the end.
 const FINALISTS: usize = 4;
 /// Times that a model is updated beside its candidate.
@@ -56,39 +63,48 @@ impl<'a> ReferenceModel<'a> {
         &self,
         unfitted: Vec<UnfittedSet>,
     ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
-        let unfitted = promising(without_falling_friction(unfitted), self.count());
+        let unfitted = without_idle_parameters(without_falling_friction(unfitted), self.count());
+        let unfitted = promising(unfitted, self.count());
         let mut view = self.view(None)?;
         let mut targets = Vec::with_capacity(unfitted.len());
         for unfitted in &unfitted {
             targets.push(self.updated_beside(&mut view, unfitted)?);
         }
         drop(view);
-        self.all_refined(unfitted.len(), f64::INFINITY, |k| {
-            self.refined_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH))
+        self.all_refined(&unfitted, f64::INFINITY, |k, most| {
+            self.refined_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH), most)
         })
     }
 
     /// The law of the whole structure that explains most beside this model, which is as it was stated, with the model then updated
     /// beside it; none where even that leaves much. Free forces at one place stand for damping everywhere so badly that the model
-    /// localised beside them may be far off any in which the law would be seen.
-    pub(crate) fn refined_whole(&self, before: f64) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+    /// localised beside them may be far off any in which the law would be seen. It is followed so far as its evidence may get near that
+    /// of the best of `others`.
+    pub(crate) fn refined_whole(
+        &self,
+        before: f64,
+        others: &[(ReferenceModel, FittedModel)],
+    ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let fits = self.whole(None, STEPS)?;
         let best = fits.into_iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         let Some(fit) = best.filter(|fit| fit.chi_square < STANDS_OUT * before) else { return Ok(Vec::new()) };
-        Ok(if_possible(self.refined_from(&fit))?.into_iter().collect())
+        let most = others.iter().map(|(reference, fit)| bound_beside(reference, fit)).fold(f64::INFINITY, f64::min);
+        Ok(if_possible(self.refined_from(&fit, most))?.into_iter().collect())
     }
 
-    /// The effects of `fit`, which is beside this model as it was stated, with a model updated beside them.
-    fn refined_from(&self, fit: &FittedModel) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+    /// The effects of `fit`, which is beside this model as it was stated, with a model updated beside them, so far as their evidence
+    /// may get below `most`.
+    fn refined_from(&self, fit: &FittedModel, most: f64) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
         let reference = self.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;
         let fit = reference.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)?;
-        reference.converged(fit, &SEARCH, UPDATES)
+        reference.converged_below(most, fit, &SEARCH, UPDATES)
     }
 
     /// The effects of `fit`, as they are there, with a model that is moved beside them from where it was stated on, and then both: a
-    /// descent in which model and effects were far off together, as beside friction that sticks, may have ended in a local minimum.
+    /// descent in which model and effects were far off together, as beside friction that sticks, may have ended in a local minimum. They
+    /// are followed so far as their evidence may get near what it was.
     pub(super) fn begun_again(
         &self,
         fit: &FittedModel,
@@ -99,23 +115,32 @@ impl<'a> ReferenceModel<'a> {
         let Some((_, reference)) = self.stepped(updating, (&fit.effects, &fit.starts), settings)? else {
             return Ok(None);
         };
-        let again = reference.refitted(fit, settings)?;
-        reference.converged(again, &SEARCH, UPDATES).map(Some)
+        let (again, most) = (reference.refitted(fit, settings)?, bound_beside(self, fit));
+        reference.converged_below(most, again, &SEARCH, UPDATES).map(Some)
     }
 
-    /// `count` candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then.
+    /// The candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then. The first is the
+    /// likeliest: what gets nowhere near it is not refined, nor friction that falls where it is plain friction that leaves noise alone.
     fn all_refined<'s>(
         &self,
-        count: usize,
+        unfitted: &[UnfittedSet],
         bound: f64,
-        refine: impl Fn(usize) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
+        refine: impl Fn(usize, f64) -> Result<(ReferenceModel<'s>, FittedModel), DiagnosisError> + Sync,
     ) -> Result<Vec<(ReferenceModel<'s>, FittedModel)>, DiagnosisError> {
         // What further effects there are is worth no more time than there is.
-        let begin = |k: usize| {
-            if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(refine(k)) }
+        let begin = |k: usize, most: f64| {
+            if bound < f64::INFINITY && self.control.is_late() { Ok(None) } else { if_possible(refine(k, most)) }
         };
-        let begun = self.control.map(count, begin).into_iter().collect::<Result<Vec<_>, _>>()?;
-        let mut begun: Vec<_> = begun.into_iter().flatten().filter(|(r, fit)| cost(r, Some(fit)) < bound).collect();
+        let first = if unfitted.is_empty() { None } else { begin(0, bound)? };
+        let most = first.as_ref().map_or(bound, |(reference, fit)| bound_beside(reference, fit).min(bound));
+        let settled = first.as_ref().filter(|(reference, fit)| agrees(reference, fit.chi_square, fit.parameters));
+        let plain =
+            |set: &UnfittedSet| settled.is_some_and(|(_, fit)| is_plain_friction_of(&fit.effects, &set.effects));
+        let others: Vec<usize> = (1..unfitted.len()).filter(|&k| !plain(&unfitted[k])).collect();
+        let others = self.control.map(others.len(), |k| begin(others[k], most));
+        let others = others.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let begun = by_simplest_name(first.into_iter().chain(others.into_iter().flatten()).collect())?.into_iter();
+        let mut begun: Vec<_> = begun.filter(|(r, fit)| cost(r, Some(fit)) < bound).collect();
         begun.sort_by(|a, b| cost(&a.0, Some(&a.1)).total_cmp(&cost(&b.0, Some(&b.1))));
         let near = begun.first().map_or(0.0, |(reference, fit)| bound_beside(reference, fit));
         let finalists = begun.iter().take(FINALISTS).take_while(|(reference, fit)| cost(reference, Some(fit)) < near);
@@ -145,17 +170,19 @@ impl<'a> ReferenceModel<'a> {
         let unfitted = promising(without_falling_friction(unfitted), self.count());
         // On the same footing as what they are beside.
         let settings = settings_for(from, self.count(), &SEARCH);
-        self.all_refined(unfitted.len(), cost(self, Some(from)) - BROUGHT * evidence, |k| {
-            self.refined_set(&unfitted[k], None, (&from.effects, settings))
+        self.all_refined(&unfitted, cost(self, Some(from)) - BROUGHT * evidence, |k, most| {
+            self.refined_set(&unfitted[k], None, (&from.effects, settings), most)
         })
     }
 
-    /// A candidate fitted on the response, then with the updating parameters beside it, which start at `target`.
+    /// A candidate fitted on the response, then with the updating parameters beside it, which start at `target`, so far as its
+    /// evidence may get below `most`.
     fn refined_set(
         &self,
         unfitted: &UnfittedSet,
         target: Option<&[f64]>,
         (others, settings): (&[Source], &Settings),
+        most: f64,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = joined(others, &unfitted.effects);
         let sources = self.predictor.sources(&effects);
@@ -175,7 +202,7 @@ impl<'a> ReferenceModel<'a> {
             }
             _ => whole,
         };
-        reference.converged(fit, &SEARCH, 1)
+        reference.converged_below(most, fit, &SEARCH, 1)
     }
 
     /// The laws of the whole structure, regressed at the measured motion beside the updating parameters as free forces at one
@@ -243,7 +270,7 @@ fn shortened<'a>(
     Ok(best)
 }
 
-/// The best sets, no more than a few at one place.
+/// The best sets, no more than a few at one place, plain friction before friction that falls.
 fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
     let Some(best) = unfitted.first().map(|d| d.score) else { return unfitted };
     let scale = (best / count.max(1) as f64).max(1.0);
@@ -268,7 +295,7 @@ fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
             kept.push(unfitted.clone());
         }
     }
-    with_limits(kept, &unfitted)
+    plain_friction_first(with_limits(kept, &unfitted))
 }
 
 /// The best sets with the simpler laws that they contain as limits, from all `unfitted`.
@@ -277,7 +304,8 @@ fn with_limits(mut kept: Vec<UnfittedSet>, unfitted: &[UnfittedSet]) -> Vec<Unfi
         let (effect, place) = (set.effects[0].effect, &set.effects[0].place);
         for simpler in effect.limits() {
             let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);
-            let near = |d: &&UnfittedSet| d.score < LIMIT * set.score.abs();
+            let most = if friction(effect).is_some() { LIMIT_OF_FRICTION } else { LIMIT };
+            let near = |d: &&UnfittedSet| d.score < most * set.score.abs();
             if !kept.iter().any(|d| is(&d)) {
                 kept.extend(unfitted.iter().find(is).filter(near).cloned());
             }

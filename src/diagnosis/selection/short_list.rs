@@ -5,6 +5,7 @@ use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::localisation::free_force::Placing;
+use crate::diagnosis::selection::reference_model::EXTRA;
 use crate::effects::{Kind, SetValued, Source};
 
 /// Most laws of one place that are fitted on the response.
@@ -80,6 +81,36 @@ pub(super) fn without_falling_friction(unfitted: Vec<UnfittedSet>) -> Vec<Unfitt
     let plainer = |a: &UnfittedSet, b: &UnfittedSet| falling(a) < falling(b) && is_limit(&a.effects, &b.effects);
     let needless = |d: &UnfittedSet| unfitted.iter().any(|s| s.score < CLEARLY * d.score.abs() && plainer(s, d));
     unfitted.iter().filter(|d| !needless(d)).cloned().collect()
+}
+
+/// Whether the last of `set` is friction that falls where the last of `plain` is friction that does not, and all else is the same.
+pub(super) fn is_plain_friction_of(plain: &[Source], set: &[Source]) -> bool {
+    let falls = |sources: &[Source]| sources.last().is_some_and(is_falling_friction);
+    falls(set) && !falls(plain) && is_limit(plain, set)
+}
+
+/// The same sets, the plain friction that the first contains before it.
+pub(super) fn plain_friction_first(mut sets: Vec<UnfittedSet>) -> Vec<UnfittedSet> {
+    let plain = |first: &UnfittedSet| sets.iter().position(|set| is_plain_friction_of(&set.effects, &first.effects));
+    if let Some(plain) = sets.first().and_then(plain) {
+        let plain = sets.remove(plain);
+        sets.insert(0, plain);
+    }
+    sets
+}
+
+/// Sets without those that leave no less than one of simpler laws which they contain as limits: a parameter beyond must bring its
+/// evidence. Laws that the best of the simpler ones may have been taken for are fitted beside it in the end.
+pub(super) fn without_idle_parameters(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
+    let best = unfitted.iter().map(|d| d.score).fold(f64::INFINITY, f64::min);
+    let evidence = EXTRA * (best / count.max(1) as f64).max(1.0);
+    let parameters = |d: &UnfittedSet| d.effects.iter().map(|e| e.parameters.len()).sum::<usize>();
+    let simpler = |a: &UnfittedSet, b: &UnfittedSet| {
+        let fewer = parameters(a) < parameters(b) && is_limit(&a.effects, &b.effects);
+        fewer && a.score < b.score + evidence
+    };
+    let idle = |d: &UnfittedSet| unfitted.iter().any(|s| simpler(s, d));
+    unfitted.iter().filter(|d| !idle(d)).cloned().collect()
 }
 
 /// The best sets, no more than a few at one place, each with the simpler laws that it contains as limits.

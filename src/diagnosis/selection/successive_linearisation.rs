@@ -5,6 +5,7 @@ use super::updated::REFITTED;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fitted_model::FittedModel;
+use crate::diagnosis::selection::levenberg_marquardt::is_hopeless;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::{has_friction, settings_for};
 use crate::math::statistics::sum_of_squares;
@@ -18,17 +19,19 @@ const SLOW: f64 = 1e-3;
 const JOINT_STEPS: usize = 12;
 
 impl<'a> ReferenceModel<'a> {
-    /// The model moved until its updating parameters leave what their linear fit leaves, without any effect.
-    pub(super) fn converged_bare(self, rounds: usize) -> Result<ReferenceModel<'a>, DiagnosisError> {
+    /// The model moved until its updating parameters leave what their linear fit leaves, without any effect; no further where that
+    /// would stay above the evidence `most`.
+    pub(super) fn converged_bare(self, rounds: usize, most: f64) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let mut reference = self;
         let mut here = reference.cost_at_reference(&reference.predictions);
         for _ in 0..rounds {
             let linear =
                 sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
-            if here - linear < CONVERGED || reference.control.is_late() {
+            if here - linear < CONVERGED || is_hopeless(here, here - linear, most) || reference.control.is_late() {
                 break;
             }
-            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS)?;
+            let left = most - reference.noise.cost();
+            let joint = reference.joint_fit((&[], &Vec::new()), &FINAL, JOINT_STEPS, left)?;
             let there = reference.updated(&joint.updating, &[], &Vec::new())?;
             let then = there.cost_at_reference(&there.predictions);
             if then >= here {
@@ -51,6 +54,17 @@ impl<'a> ReferenceModel<'a> {
         settings: &Settings,
         rounds: usize,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+        self.converged_below(f64::INFINITY, fit, settings, rounds)
+    }
+
+    /// The same, no further where that would stay above the evidence `most`.
+    pub(super) fn converged_below(
+        self,
+        most: f64,
+        fit: FittedModel,
+        settings: &Settings,
+        rounds: usize,
+    ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let settings = settings_for(&fit, self.count(), settings);
         // What friction leaves depends on the number of harmonics.
         let fit = if has_friction(&fit.effects) { self.refitted(&fit, settings)? } else { fit };
@@ -58,10 +72,11 @@ impl<'a> ReferenceModel<'a> {
         let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {
             let linear = fit.chi_square + reference.noise.cost();
-            if here - linear < CONVERGED || reference.control.is_late() {
+            if here - linear < CONVERGED || is_hopeless(here, here - linear, most) || reference.control.is_late() {
                 break;
             }
-            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS)?;
+            let left = most - reference.noise.cost();
+            let joint = reference.joint_fit((&fit.effects, &fit.starts), settings, JOINT_STEPS, left)?;
             let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
             let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
             let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);

@@ -7,7 +7,7 @@ use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::agrees;
+use crate::diagnosis::selection::found::{agrees, most_of_noise};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
@@ -185,7 +185,7 @@ impl<'a> ReferenceModel<'a> {
             }
         }
         match best {
-            Some((_, reference)) => reference.converged_bare(STEPS),
+            Some((_, reference)) => reference.converged_bare(STEPS, f64::INFINITY),
             None => self.updated(&rigid, &[], &Vec::new()),
         }
     }
@@ -219,13 +219,15 @@ impl<'a> ReferenceModel<'a> {
 
     /// This model with the scales that are most likely without any effect, and its evidence: without gains and differences
     /// from run to run, or without those alone, where that agrees with the data; else the best of these and of the scales
-    /// that are estimated.
-    pub(crate) fn likely(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
+    /// that are estimated. It is not followed where its evidence would stay above `most`.
+    pub(crate) fn likely(&self, most: f64) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
         let alike = Scales { shift: Scales::LEAST.shift, response: Scales::LEAST.response, ..Scales::SEARCH };
         let exact = Scales { gain: Scales::LEAST.gain, phase: Scales::LEAST.phase, ..alike };
-        let start = self.updated(&self.linearisation.updating.without_force_gains(), &[], &Vec::new())?;
+        let start = self.updated(&self.linearisation.updating.without_force_gains_and_shifts(), &[], &Vec::new())?;
         let strict = |scales: Scales| -> Result<(ReferenceModel<'a>, f64, bool), DiagnosisError> {
-            let strict = start.with_scales(scales).converged_bare(STEPS)?;
+            let strict = start.with_scales(scales);
+            let most = most_of_noise(&strict, 0) + strict.noise.cost();
+            let strict = strict.converged_bare(STEPS, most)?;
             let left = sum_of_squares(&strict.estimator().residual(&strict.predictions));
             let (cost, enough) = (left + strict.noise.cost(), agrees(&strict, left, 0));
             Ok((strict, cost, enough))
@@ -234,7 +236,8 @@ impl<'a> ReferenceModel<'a> {
         if first.2 {
             return Ok((first.0, first.1));
         }
-        let other = |k: usize| if k == 0 { strict(alike) } else { self.estimated().map(|(r, cost)| (r, cost, false)) };
+        let estimated = || self.estimated(most).map(|(r, cost)| (r, cost, false));
+        let other = |k: usize| if k == 0 { strict(alike) } else { estimated() };
         let mut tried = vec![first];
         for other in self.control.map(2, other) {
             tried.push(other?);
@@ -285,9 +288,10 @@ impl<'a> ReferenceModel<'a> {
         sum_of_squares(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
     }
 
-    /// This model settled with the scales that are estimated without any effect, and its evidence.
-    pub(super) fn estimated(&self) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
-        let converged = self.with_likely_scales(None, &FINAL)?.0.converged_bare(STEPS)?;
+    /// This model settled with the scales that are estimated without any effect, and its evidence; no further where that would stay
+    /// above `most`.
+    pub(super) fn estimated(&self, most: f64) -> Result<(ReferenceModel<'a>, f64), DiagnosisError> {
+        let converged = self.with_likely_scales(None, &FINAL)?.0.converged_bare(STEPS, most)?;
         let estimated = converged.with_likely_scales(None, &FINAL)?.0;
         let cost = sum_of_squares(&estimated.estimator().residual(&estimated.predictions)) + estimated.noise.cost();
         Ok((estimated, cost))

@@ -146,7 +146,7 @@ pub(super) fn bound_beside(reference: &ReferenceModel, best: &FittedModel) -> f6
 
 /// The fits in which no law is all but a simpler one on the motion at its place: with that in its stead, fitted beside the same
 /// model. Taken for itself, the law would run away to where no data hold it, and answer ever more slowly.
-fn by_simplest_name(
+pub(super) fn by_simplest_name(
     fits: Vec<(ReferenceModel<'_>, FittedModel)>,
 ) -> Result<Vec<(ReferenceModel<'_>, FittedModel)>, DiagnosisError> {
     let mut named: Vec<(ReferenceModel, FittedModel)> = Vec::new();
@@ -200,7 +200,7 @@ fn generalisations_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, Di
         let near = cost(reference, Some(&fit)) < bound(&fit) && is_effect(reference, &fit);
         if !known && near && wider.len() < WIDER {
             let own = reference.with_scales(reference.linearisation.updating.scales);
-            let converged = own.converged(fit, &SEARCH, WIDER_UPDATES)?;
+            let converged = own.converged_below(bound(&fit), fit, &SEARCH, WIDER_UPDATES)?;
             for (there, converged) in by_simplest_name(vec![converged])? {
                 wider.push(candidate(there, converged)?);
             }

@@ -214,13 +214,18 @@ impl Updating {
         Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
     }
 
-    /// The same with the gains of forces at nothing: where scales leave them no freedom they cannot be moved back.
+    /// The same with the gains of forces and the stiffness of single runs at nothing: where scales leave them no freedom they cannot be
+    /// moved back.
     #[must_use]
-    pub fn without_force_gains(&self) -> Self {
+    pub fn without_force_gains_and_shifts(&self) -> Self {
         let value = |(parameter, v): (&UpdatingParameter, &f64)| {
             if matches!(parameter, UpdatingParameter::ForceGain(_)) { 0.0 } else { *v }
         };
-        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
+        Self {
+            values: self.parameters.iter().zip(&self.values).map(value).collect(),
+            shifts: Vec::new(),
+            ..self.clone()
+        }
     }
 
     /// The same with all runs alike: what holds of the structure, not of the records.

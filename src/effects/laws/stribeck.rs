@@ -16,6 +16,9 @@ use crate::effects::set_valued::SetValued;
 use crate::effects::symbol::{Mark, Tone};
 use crate::effects::turning::total_variation;
 
+/// Share of the greatest speed at which friction has fallen as if at once: a hundredth of what the harmonics of a response resolve.
+const SUDDEN: f64 = 1e-3;
+
 /// Friction that falls from a static to a sliding force with speed.
 #[derive(Debug)]
 pub(crate) struct Stribeck;
@@ -31,6 +34,8 @@ const DESCRIPTION: Description = Description {
     limits: &[
         Limit { law: Effect::Coulomb, holds: |p, _| alike(p[1], p[0]), parameters: |p| vec![p[0]] },
         Limit { law: Effect::Coulomb, holds: |p, range| p[2] > range.velocity / CLOSE, parameters: |p| vec![p[1]] },
+        // Nor do motions tell friction that has fallen at speeds far below theirs.
+        Limit { law: Effect::Coulomb, holds: |p, range| p[2] < SUDDEN * range.velocity, parameters: |p| vec![p[0]] },
     ],
     // What a series of few harmonics leaves of a jump looks like friction that rises from rest.
     disguised: |p| p[1] <= p[0],
