@@ -3,6 +3,7 @@
 use super::basis::Basis;
 use super::effect::Effect;
 use super::kind::Kind;
+use super::limits::Limit;
 use super::motion::{Motion, linear_energy};
 use super::place::Place;
 use super::range::Range;
@@ -254,8 +255,14 @@ impl Source {
 
     /// The simpler laws at this place that the law contains, with the parameters that this source has of them.
     pub fn limits(&self) -> impl Iterator<Item = Self> {
-        let limits = self.effect.description().limits.iter();
-        limits.map(|limit| Self { effect: limit.law, parameters: (limit.parameters)(&self.parameters), ..self.clone() })
+        let limits = self.effect.description().limits;
+        let law_at = |limit: &Limit| (limit.law, (limit.parameters)(&self.parameters));
+        let fresh = move |k: &usize| !limits[..*k].iter().any(|other| law_at(other) == law_at(&limits[*k]));
+        let simpler = move |k: usize| {
+            let (effect, parameters) = law_at(&limits[k]);
+            Self { effect, parameters, ..self.clone() }
+        };
+        (0..limits.len()).filter(fresh).map(simpler)
     }
 
     /// Whether the source is a simpler law by another name that is looked at beside it anyway: a force that knows no

@@ -139,3 +139,40 @@ pub(super) fn short_list(mut unfitted: Vec<UnfittedSet>, most: usize) -> Vec<Unf
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{UnfittedSet, plain_friction_first, without_idle_parameters};
+    use crate::effects::{Effect, Place, Source};
+    use std::sync::Arc;
+
+    fn set(effect: Effect, dof: usize, parameters: &[f64], score: f64) -> UnfittedSet {
+        let effects = vec![Source::known(effect, Place::Dofs(vec![dof]), parameters)];
+        UnfittedSet { effects, score, fields: Arc::default() }
+    }
+
+    fn laws(sets: &[UnfittedSet]) -> Vec<Effect> {
+        sets.iter().map(|set| set.effects[0].effect).collect()
+    }
+
+    /// A power of velocity that leaves no less than a dashpot at its place is one; elsewhere, or where it leaves less, it is not.
+    #[test]
+    fn a_parameter_that_brings_nothing_is_not_refined() {
+        let power = |dof: usize, score: f64| set(Effect::Power, dof, &[7.0, 1.0], score);
+        let dashpot = set(Effect::Viscous, 0, &[7.0], 90.0);
+        let kept = |power: UnfittedSet| laws(&without_idle_parameters(vec![dashpot.clone(), power], 100));
+        assert_eq!(kept(power(0, 88.0)), [Effect::Viscous]);
+        assert_eq!(kept(power(0, 60.0)), [Effect::Viscous, Effect::Power]);
+        assert_eq!(kept(power(1, 88.0)), [Effect::Viscous, Effect::Power]);
+    }
+
+    #[test]
+    fn plain_friction_comes_before_the_friction_that_contains_it() {
+        let falling = set(Effect::Stribeck, 0, &[1.0, 2.0, 0.1], 50.0);
+        let (dashpot, plain) = (set(Effect::Viscous, 0, &[1.0], 60.0), set(Effect::Coulomb, 0, &[1.5], 200.0));
+        let ordered = plain_friction_first(vec![falling.clone(), dashpot.clone(), plain]);
+        assert_eq!(laws(&ordered), [Effect::Coulomb, Effect::Stribeck, Effect::Viscous]);
+        let elsewhere = plain_friction_first(vec![falling, dashpot, set(Effect::Coulomb, 1, &[1.5], 200.0)]);
+        assert_eq!(laws(&elsewhere), [Effect::Stribeck, Effect::Viscous, Effect::Coulomb]);
+    }
+}

@@ -123,3 +123,23 @@ impl SetValued for Stribeck {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use crate::effects::range::Range;
+    use crate::effects::{Effect, Place, Source};
+
+    /// Friction that has fallen at a ten thousandth of the speeds that were reached is dry friction with its sliding force.
+    #[test]
+    fn friction_that_has_fallen_at_once_is_dry_friction() {
+        let source = |velocity: f64| Source::known(Effect::Stribeck, Place::Dofs(vec![0]), &[0.6, 0.8, velocity]);
+        let range = Range { displacement: 1e-3, least: 1e-3, velocity: 0.1, omega: 100.0 };
+        let simpler = source(1e-5).simpler(&range).unwrap();
+        assert_eq!((simpler.effect, simpler.parameters), (Effect::Coulomb, vec![0.6]));
+        assert!(source(0.02).simpler(&range).is_none() && source(1e-5).simpler(&Range::UNKNOWN).is_none());
+        // Each simpler law once: with the sliding force and with the static one.
+        let forces: Vec<f64> = source(0.02).limits().map(|law| law.parameters[0]).collect();
+        assert_eq!(forces, [0.6, 0.8]);
+    }
+}

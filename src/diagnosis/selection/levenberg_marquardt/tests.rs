@@ -1,6 +1,6 @@
 //! Valleys that bend, bounds, what is left of the prior.
 
-use super::{Descent, Residual, descend};
+use super::{Descent, Residual, descend, is_hopeless};
 use faer::Mat;
 
 /// Rosenbrock's valley, ten times as deep: `100 (y - x^2)` and `10 (1 - x)`.
@@ -62,4 +62,63 @@ fn the_volume_that_is_left_is_that_of_what_the_data_know() {
     let jacobian = Mat::from_fn(3, 2, |i, k| if k == 0 { [6.0, 8.0, 0.0][i] } else { 0.0 });
     let descent = Descent { theta: vec![0.0; 2], chi_square: 0.0, residual: vec![0.0; 3], jacobian, to_go: 0.0 };
     assert!((descent.log_volume() + 0.5 * 101.0_f64.ln()).abs() < 1e-12, "{}", descent.log_volume());
+}
+
+/// `x` and a part of the residual that nothing changes, where what stays above a bound is of no interest.
+struct Hopeless {
+    most: f64,
+    residuals: usize,
+}
+
+impl Residual for Hopeless {
+    type Error = std::convert::Infallible;
+
+    fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
+        self.residuals += 1;
+        Ok(vec![10.0 * (at[0] - 4.0), 100.0])
+    }
+
+    fn jacobian(&mut self, _: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
+        Ok(Mat::from_fn(2, 1, |i, _| [10.0, 0.0][i]))
+    }
+
+    fn most(&self) -> f64 {
+        self.most
+    }
+}
+
+#[test]
+fn a_descent_that_would_stay_above_what_is_of_interest_is_not_begun() {
+    let mut hopeless = Hopeless { most: 5000.0, residuals: 0 };
+    let Ok(descent) = descend(&mut hopeless, &[0.0], 20);
+    assert_eq!((descent.theta[0], hopeless.residuals), (0.0, 1));
+    let mut promising = Hopeless { most: 10_500.0, residuals: 0 };
+    let Ok(descent) = descend(&mut promising, &[0.0], 20);
+    assert!((descent.theta[0] - 4.0).abs() < 0.1, "{descent:?}");
+    assert!(is_hopeless(100.0, 20.0, 50.0) && !is_hopeless(100.0, 30.0, 50.0));
+}
+
+/// A residual so rough that no step lowers it, whatever its derivative promises.
+struct Rough(usize);
+
+impl Residual for Rough {
+    type Error = std::convert::Infallible;
+
+    fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
+        self.0 += 1;
+        Ok(vec![if at[0] == 0.0 { 1.0 } else { 2.0 }])
+    }
+
+    fn jacobian(&mut self, _: &[f64], _: &[f64]) -> Result<Mat<f64>, Self::Error> {
+        Ok(Mat::from_fn(1, 1, |_, _| 1.0))
+    }
+}
+
+/// A damped step that promises less than counts is not tried: of the dozen up to the firmest there are a few.
+#[test]
+fn steps_that_promise_nothing_are_not_tried() {
+    let mut rough = Rough(0);
+    let Ok(descent) = descend(&mut rough, &[0.0], 20);
+    assert_eq!(descent.theta[0], 0.0);
+    assert!(rough.0 < 12, "{} residuals", rough.0);
 }
