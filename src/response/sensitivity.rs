@@ -15,7 +15,7 @@ use super::harmonic_balance::{
 };
 use super::observation::{Observation, observations};
 use crate::effects::{Kind, Source};
-use crate::structure::factors::Part;
+use crate::structure::Part;
 use crate::structure::share::Share;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;

@@ -15,9 +15,8 @@
 //!
 //! (SEREP with all modes: O'Callahan, Avitabile and Riemer 1989).
 
-use super::factors::Part;
 use super::matrices::{Element, SystemMatrices};
-use super::share::{HeldDof, Share, add};
+use super::share::{HeldDof, Part, Share, add};
 use crate::math::eigen::generalised_symmetric;
 use dashpot_numerics::RealLu;
 use faer::Mat;
@@ -197,9 +196,9 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models::cantilever_parameters;
-    use crate::structure::Part;
     use crate::structure::beam::{BeamParameters, Supports};
     use crate::structure::modes::modes;
+    use crate::structure::share::Triplets;
 
     /// Natural frequencies with the DOFs `free` of the beam without supports, those of `springs` on springs to the ground.
     fn on_springs(beam: &BeamParameters, held: &[usize], springs: &[(usize, f64)]) -> Vec<f64> {
@@ -274,14 +273,39 @@ mod tests {
             let share = both.share(part).unwrap();
             let step = 1e-3;
             let [more, less] =
-                [step, -step].map(|by: f64| both.with_factors(&[(part, by.exp())]).matrices().unwrap().clone());
-            let differences =
-                [(&share.stiffness, &more.stiffness - &less.stiffness), (&share.mass, &more.mass - &less.mass)];
-            for (told, difference) in differences {
-                let mut left = &difference * faer::Scale(0.5 / step);
-                let size = left.norm_max();
-                add(&mut left, told, -1.0);
-                assert!(left.norm_max() < 1e-4 * size, "{part:?}: {} of {size}", left.norm_max());
+                [step, -step].map(|by: f64| both.with_factors(&[(part, by.exp())]).modes().unwrap().omega);
+            let modes = both.modes().unwrap();
+            let along = |entries: &Triplets, r: usize| -> f64 {
+                entries.iter().map(|&(i, j, v)| modes.shapes[(i, r)] * v * modes.shapes[(j, r)]).sum()
+            };
+            for r in 0..6 {
+                let square = modes.omega[r].powi(2);
+                let told = along(&share.stiffness, r) - square * along(&share.mass, r);
+                let slope = (more[r].powi(2) - less[r].powi(2)) / (2.0 * step);
+                assert!((told - slope).abs() < 1e-4 * square, "{part:?} mode {r}: {told} {slope}");
+            }
+        }
+    }
+
+    /// Modes that are put right are no sum of parts: the shapes move with the support and the element next to it as well.
+    #[test]
+    fn shares_next_to_a_support_that_gives_way_are_derivatives_of_the_matrices() {
+        let model = BeamParameters { supports: Supports::PinnedPinned, ..cantilever_parameters(5) }.build(&[]).unwrap();
+        let support = Part::Support(model.supports()[1]);
+        for factor in [0.5, 1.2] {
+            let yielding = model.with_factors(&[(support, factor)]);
+            for part in [support, Part::ElementStiffness([4, 4]), Part::ElementMass([4, 4])] {
+                let (share, step) = (yielding.share(part).unwrap(), 1e-3);
+                let [more, less] =
+                    [step, -step].map(|by: f64| yielding.with_factors(&[(part, by.exp())]).matrices().unwrap().clone());
+                let differences =
+                    [(&share.stiffness, &more.stiffness - &less.stiffness), (&share.mass, &more.mass - &less.mass)];
+                for (told, difference) in differences {
+                    let mut left = &difference * faer::Scale(0.5 / step);
+                    let size = left.norm_max();
+                    add(&mut left, told, -1.0);
+                    assert!(left.norm_max() <= 1e-3 * size, "{factor} {part:?}: {} of {size}", left.norm_max());
+                }
             }
         }
     }

@@ -10,38 +10,12 @@
 use super::elastic_supports::{ElasticSupports, HeldColumn};
 use super::matrices::{Element, SystemMatrices};
 use super::mode_damping::{DampingOfMode, modal_pattern};
-use super::share::{HeldDof, Share, Triplets, add};
+use super::share::{HeldDof, Part, Share, Triplets, add};
 use super::system::{Structure, StructureKind};
 use faer::Mat;
 
 /// Change of the logarithm of a factor for derivatives by differences.
 const STEP: f64 = 1e-5;
-
-/// A part of a structure; rows are counted from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Part {
-    /// All stiffness.
-    Stiffness,
-    /// All mass.
-    Mass,
-    /// Stiffness of the elements first..=last.
-    ElementStiffness([usize; 2]),
-    /// Mass of the elements first..=last.
-    ElementMass([usize; 2]),
-    /// Stiffness of one undamped mode.
-    Mode(usize),
-    /// Damping that laws of the whole structure give one undamped mode.
-    ModeDamping(usize),
-    /// Spring from a DOF to the ground: the sum of its row.
-    GroundSpring(usize),
-    /// Spring between two DOFs: minus the entry of the stiffness matrix.
-    Coupling([usize; 2]),
-    /// Mass on the diagonal at a DOF.
-    PointMass(usize),
-    /// Support of a held DOF of a beam, taken for rigid: `k_s / (k_s + k_hh)` of a spring `k_s` in its stead, `k_hh` being the
-    /// stiffness of the element there.
-    Support(HeldDof),
-}
 
 impl Structure {
     /// The share of `part` in the matrices; `None` for all stiffness, all mass, modes and structures without matrices.

@@ -1,4 +1,4 @@
-//! What one part of a structure adds to its matrices.
+//! The parts of a structure, and what one of them adds to its matrices.
 
 use faer::Mat;
 
@@ -9,6 +9,32 @@ pub struct HeldDof {
     pub element: usize,
     /// Which of its local DOFs.
     pub dof: usize,
+}
+
+/// A part of a structure; rows are counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Part {
+    /// All stiffness.
+    Stiffness,
+    /// All mass.
+    Mass,
+    /// Stiffness of the elements first..=last.
+    ElementStiffness([usize; 2]),
+    /// Mass of the elements first..=last.
+    ElementMass([usize; 2]),
+    /// Stiffness of one undamped mode.
+    Mode(usize),
+    /// Damping that laws of the whole structure give one undamped mode.
+    ModeDamping(usize),
+    /// Spring from a DOF to the ground: the sum of its row.
+    GroundSpring(usize),
+    /// Spring between two DOFs: minus the entry of the stiffness matrix.
+    Coupling([usize; 2]),
+    /// Mass on the diagonal at a DOF.
+    PointMass(usize),
+    /// Support of a held DOF of a beam, taken for rigid: `k_s / (k_s + k_hh)` of a spring `k_s` in its stead, `k_hh` being the
+    /// stiffness of the element there.
+    Support(HeldDof),
 }
 
 /// Entries of a symmetric matrix, `(row, column, value)`, both triangles.

@@ -99,6 +99,9 @@ const STUCK: f64 = 1e-3;
 /// Steps in a row that gain no more than that before a descent gives up.
 const IDLE: usize = 3;
 
+/// Share of the gain that counts which a step must promise to be tried where another has failed.
+const TRIED: f64 = 0.1;
+
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
 const LONGEST: f64 = 1.5;
 const FIRM: f64 = 1.0;
@@ -198,7 +201,7 @@ impl Normal {
 /// The next point of a descent with its residual.
 type Point = (Vec<f64>, Vec<f64>, f64);
 
-/// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that promises `enough`.
+/// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that promises a share of `enough`.
 fn step<R: Residual>(
     problem: &mut R,
     (theta, residual, jacobian): (&[f64], &[f64], &Mat<f64>),
@@ -209,7 +212,7 @@ fn step<R: Residual>(
     let (bounds, mut failed) = (problem.bounds(), false);
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
-            if failed && equations.promised(*damping, &straight) < enough {
+            if failed && equations.promised(*damping, &straight) < TRIED * enough {
                 return Ok(None);
             }
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();

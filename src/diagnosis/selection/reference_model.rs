@@ -1,6 +1,6 @@
 //! One model with its data and noise that a search starts from, and how sets of effects fitted beside it are ranked.
 
-use super::short_list::is_real;
+use super::short_list::{EXTRA, is_real};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData};
@@ -16,9 +16,6 @@ use crate::effects::Source;
 use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_square, sum_of_squares};
 use std::sync::Arc;
 
-/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
-/// contains another as a limit, the simpler wins unless the data demand the other.
-pub(super) const EXTRA: f64 = 8.0;
 /// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
 const POSING: f64 = 20.0;
 

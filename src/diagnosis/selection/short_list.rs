@@ -5,9 +5,11 @@ use crate::diagnosis::candidates::law_force::GAINS;
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::localisation::free_force::Placing;
-use crate::diagnosis::selection::reference_model::EXTRA;
 use crate::effects::{Kind, SetValued, Source};
 
+/// What every parameter of a law beyond its first costs in evidence besides its information criterion: where one law
+/// contains another as a limit, the simpler wins unless the data demand the other.
+pub(super) const EXTRA: f64 = 8.0;
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
 /// Sets whose score is this many times that of the best are not fitted.

@@ -1,4 +1,4 @@
-//! Valleys that bend, bounds, what is left of the prior.
+//! Valleys that bend, bounds, what is hopeless, what is left of the prior.
 
 use super::{Descent, Residual, descend, is_hopeless};
 use faer::Mat;
@@ -120,5 +120,5 @@ fn steps_that_promise_nothing_are_not_tried() {
     let mut rough = Rough(0);
     let Ok(descent) = descend(&mut rough, &[0.0], 20);
     assert_eq!(descent.theta[0], 0.0);
-    assert!(rough.0 < 12, "{} residuals", rough.0);
+    assert!(rough.0 < 18, "{} residuals", rough.0);
 }
