@@ -13,6 +13,7 @@ use crate::diagnosis::updating::detuning::is_likely;
 
 /// Evidence that a single change must promise to be refined.
 const PROMISED: f64 = 4.0;
+
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
 pub(super) fn beside_updating(

@@ -29,7 +29,7 @@ pub(super) const RAISED: f64 = 1.1;
 const HALVED: f64 = 0.5;
 
 /// A model with its evidence; the smaller, the better.
-type Known<'a> = (ReferenceModel<'a>, f64);
+type WithEvidence<'a> = (ReferenceModel<'a>, f64);
 
 /// The model that the next effect is to be better than.
 pub(super) struct Rival<'a, 'b> {
@@ -38,14 +38,14 @@ pub(super) struct Rival<'a, 'b> {
     /// Error of the model as it is stated.
     stated: f64,
     /// The model with its evidence: none before corrections alone were looked at.
-    model: Option<Known<'a>>,
+    model: Option<WithEvidence<'a>>,
     /// Whether it and the effects are near enough to be judged by what they predict.
     near: bool,
 }
 
 impl<'a, 'b> Rival<'a, 'b> {
     /// Corrections alone, `corrected` where they were looked at before.
-    pub(super) fn new(bare: &'b ReferenceModel<'a>, stated: f64, corrected: Option<Known<'a>>) -> Self {
+    pub(super) fn new(bare: &'b ReferenceModel<'a>, stated: f64, corrected: Option<WithEvidence<'a>>) -> Self {
         Self { bare, stated, model: corrected, near: false }
     }
 
@@ -99,10 +99,10 @@ impl<'a, 'b> Rival<'a, 'b> {
     /// The model with corrections alone, as it was `corrected` before, or not followed where its evidence would stay above `most`.
     fn corrections_alone(
         &mut self,
-        corrected: Option<Known<'a>>,
+        corrected: Option<WithEvidence<'a>>,
         weighed: &Weighed<'a>,
         most: f64,
-    ) -> Result<Known<'a>, DiagnosisError> {
+    ) -> Result<WithEvidence<'a>, DiagnosisError> {
         let (bare, best) = (self.bare, &weighed.fits[0]);
         let scale = scale_of(&weighed.fits, weighed.reference.count());
         let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
@@ -180,8 +180,8 @@ fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<
 }
 
 /// Whether the best of the candidates predicts runs that are left out better than the model with corrections and the effects
-/// before it, by more than may be by chance. A channel that is read wrongly, and a spring or
-/// mass that corrections can stand for, predict little better: they are told by their evidence alone.
+/// before it, by more than may be by chance. A channel that is read wrongly, and a spring or mass that corrections
+/// can stand for, predict little better: they are told by their evidence alone.
 fn predicts_better(
     weighed: &Weighed,
     (likely, before): (&ReferenceModel, Option<&FittedModel>),
@@ -202,7 +202,7 @@ fn raises_error(error: f64, before: Option<f64>, stated: f64) -> bool {
     error > before.map_or(stated, |before| RAISED * before)
 }
 
-/// Evidence that the last of the effects of a fit must bring beside `likely`, the model with corrections and the effects before it.
+/// Evidence that the last of the effects of a fit must bring beside the model with corrections and the effects before it.
 fn evidence_needed(effects: &[Source], by_modes: bool) -> f64 {
     match effects.len() {
         1 if is_single_change(effects) && by_modes => FURTHER,
