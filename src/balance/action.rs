@@ -91,7 +91,7 @@ fn leg_energy(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64], scale: f64)
 fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     (0..field.numbers.len())
         .map(|k| {
-            let bx = basis_times(structure, law.basis(), range(&source.place), field.x, k);
+            let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
             let factor = law.factor(source.coefficient(), field.frequency(k)).im;
             let form: f64 = (0..bx.len()).map(|i| (field.x[(i, k)].conj() * bx[i]).re).sum();
             PI * field.numbers[k] as f64 * factor * form
@@ -108,9 +108,9 @@ pub(crate) fn basis_times(
     structure: &Structure,
     basis: Basis,
     range: Option<[usize; 2]>,
-    x: &Mat<c64>,
-    k: usize,
+    (field, k): (Field<'_>, usize),
 ) -> Vec<c64> {
+    let x = field.x;
     let mut product = vec![c64::new(0.0, 0.0); structure.len()];
     if let Some(range) = range {
         basis.entries(structure, range).for_each(|(i, j, value)| product[i] += x[(j, k)] * value);
@@ -124,7 +124,7 @@ pub(crate) fn basis_times(
         }
         for mode in structure.damping_of_modes() {
             let along = (mode.pattern.iter().enumerate()).fold(c64::new(0.0, 0.0), |s, (i, v)| s + x[(i, k)] * *v);
-            let amplitude = along * basis.more_of(mode);
+            let amplitude = along * basis.more_of_at(mode, field.frequency(k));
             product.iter_mut().zip(&mode.pattern).for_each(|(p, v)| *p += amplitude * *v);
         }
     }
@@ -157,7 +157,7 @@ pub(crate) fn add_energy_gradient(
             for k in 0..field.numbers.len() {
                 let factor = law.factor(source.coefficient(), field.frequency(k)).im;
                 let scale = weight * 2.0 * PI * field.numbers[k] as f64 * factor;
-                let bx = basis_times(structure, law.basis(), range(&source.place), field.x, k);
+                let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
                 for (i, value) in bx.into_iter().enumerate() {
                     gradient[(i, k)] += value * scale;
                 }
@@ -203,7 +203,7 @@ pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) ->
 fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     let at_harmonic = |k: usize| -> Vec<c64> {
         let factor = law.factor(source.coefficient(), field.frequency(k));
-        let bx = basis_times(structure, law.basis(), range(&source.place), field.x, k);
+        let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
         bx.into_iter().map(|v| v * factor).collect()
     };
     let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();
@@ -295,6 +295,7 @@ mod tests {
     use super::*;
     use crate::common::models;
     use crate::effects::Effect;
+    use crate::structure::Part;
 
     fn chain() -> Structure {
         models::chain(&[1.0, 2.0], &[10.0, 0.0], &[20.0])
@@ -331,9 +332,27 @@ mod tests {
         }
     }
 
+    /// A loss factor that doubles by octave damps every mode as a dashpot does: `pi sum h eta omega_r h omega |q_r|^2`, `q = Phi^T M x`.
+    #[test]
+    fn a_loss_factor_that_doubles_by_octave_takes_the_energy_of_viscous_damping() {
+        let (stated, x) = (chain(), motion());
+        let corrected = stated.with_factors(&[0, 1].map(|mode| (Part::ModeDampingPerOctave(mode), 2.0)));
+        let field = Field { omega: 3.0, numbers: &[1, 3], x: &x };
+        let (modes, mass) = (stated.modes().unwrap(), [1.0, 2.0]);
+        let of_mode = |r: usize, k: usize| {
+            let q = (0..2).map(|i| x[(i, k)] * (modes.shapes[(i, r)] * mass[i])).sum::<c64>();
+            PI * field.numbers[k] as f64 * 0.1 * modes.omega[r] * field.frequency(k) * q.norm_sqr()
+        };
+        let expected: f64 = (0..2).flat_map(|r| (0..2).map(move |k| (r, k))).map(|(r, k)| of_mode(r, k)).sum();
+        let source = Source::known(Effect::LossFactor, Place::Whole(None), &[0.1]);
+        let found = energy(&source, &corrected, field);
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected} J");
+    }
+
     #[test]
     fn gradient_agrees_with_finite_differences() {
-        let (structure, x) = (chain(), motion());
+        let structure = chain().with_factors(&[(Part::ModeDampingPerOctave(0), 1.7)]);
+        let x = motion();
         for source in all_sources() {
             let mut gradient = Mat::zeros(2, 2);
             let field = Field { omega: 3.0, numbers: &[1, 3], x: &x };

@@ -24,6 +24,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
             Part::Mass => ("mass", "", Value::Null),
             Part::Mode(mode) => ("mode", "mode", json!(mode + 1)),
             Part::ModeDamping(mode) => ("mode_damping", "mode", json!(mode + 1)),
+            Part::ModeDampingPerOctave(mode) => ("mode_damping_per_octave", "mode", json!(mode + 1)),
             Part::GroundSpring(dof) => ("spring", "dofs", dofs(&[*dof])),
             Part::Coupling(pair) => ("spring", "dofs", dofs(pair)),
             Part::PointMass(dof) => ("point_mass", "dofs", dofs(&[*dof])),

@@ -211,6 +211,7 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::Mass => "All mass".to_owned(),
         Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
         Part::ModeDamping(mode) => format!("Damping of mode {}", mode + 1),
+        Part::ModeDampingPerOctave(mode) => format!("Damping of mode {} an octave higher", mode + 1),
         Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),
         Part::Coupling(pair) => format!("Spring {}", place(&pair)),
         Part::PointMass(dof) => format!("Mass {}", place(&[dof])),

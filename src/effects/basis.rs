@@ -33,8 +33,13 @@ impl Basis {
     }
 
     /// What the matrix of a structure has more of a mode than that of the system, `(f - 1) b`.
-    pub(crate) fn more_of(self, mode: &DampingOfMode) -> f64 {
+    fn more_of(self, mode: &DampingOfMode) -> f64 {
         (mode.factor - 1.0) * self.of_mode(mode.square)
+    }
+
+    /// The same for the forces at `omega`, rad/s.
+    pub(crate) fn more_of_at(self, mode: &DampingOfMode, omega: f64) -> f64 {
+        (mode.factor_at(omega) - 1.0) * self.of_mode(mode.square)
     }
 
     /// The modal mass or stiffness of a mass-normalised mode of this square of the natural circular frequency, rad^2/s^2.

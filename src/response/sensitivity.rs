@@ -38,6 +38,8 @@ pub enum Unknown {
     ModeStiffness(usize),
     /// Relative change by 1 of the damping that laws of the whole structure give an undamped mode.
     ModeDamping(usize),
+    /// Relative change by 1 of that an octave above the natural frequency, by a power of frequency.
+    ModeDampingPerOctave(usize),
     /// Relative change by 1 of a part of the structure that has a share of its own in the matrices.
     Part(Part),
     /// Relative change by 1 of force number `.0` of the excitation at all its harmonics.
@@ -121,7 +123,7 @@ fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Re
         }
         Unknown::Stiffness | Unknown::Mass | Unknown::Part(_) => true,
         Unknown::ForceScale(force) => force < forces,
-        Unknown::ModeStiffness(row) | Unknown::ModeDamping(row) => row < size,
+        Unknown::ModeStiffness(row) | Unknown::ModeDamping(row) | Unknown::ModeDampingPerOctave(row) => row < size,
     };
     let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), forces, size };
     if exists { Ok(()) } else { Err(missing) }
@@ -255,6 +257,7 @@ pub(crate) fn pseudo_force(
             Some(load)
         }
         Unknown::ModeDamping(mode) => linear.apply_mode_damping(mode, w, x),
+        Unknown::ModeDampingPerOctave(mode) => linear.apply_mode_damping_per_octave(mode, w, x),
         Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
         Unknown::Part(part) => Some(share_force(linear, &linear.structure().share(part)?, x, w)),
         Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),
@@ -275,7 +278,7 @@ fn share_force(linear: &LinearPart, share: &Share, x: &[c64], w: f64) -> Vec<c64
 fn source_force(linear: &LinearPart, source: &Source, parameter: usize, x: &[c64], w: f64) -> Option<Vec<c64>> {
     match source.effect.kind() {
         // The force of a whole-structure law is proportional to its only parameter.
-        Kind::Whole(law) => Some(linear.apply_whole(source, -law.factor(1.0, w), x)),
+        Kind::Whole(law) => Some(linear.apply_whole(source, -law.factor(1.0, w), w, x)),
         Kind::Relative(_) if source.effect.is_linear() => {
             let mut load = vec![c64::new(0.0, 0.0); x.len()];
             for leg in source.place.legs() {

@@ -46,7 +46,9 @@ pub(crate) fn adopt_all(
 fn is_possible(correction: &Correction, unexplained: bool) -> bool {
     let factor = correction.factor;
     let bounded = match correction.parameter {
-        UpdatingParameter::Structure(part) => !matches!(part, Part::Support(_) | Part::ModeDamping(_)),
+        UpdatingParameter::Structure(part) => {
+            !matches!(part, Part::Support(_) | Part::ModeDamping(_) | Part::ModeDampingPerOctave(_))
+        }
         _ => false,
     };
     FACTORS.contains(&factor) && !(unexplained && bounded && factor.ln().abs() > MOST.ln())

@@ -27,7 +27,9 @@ impl Structure {
             vec![(i, i, value), (j, j, value), (i, j, -value), (j, i, -value)]
         };
         Some(match part {
-            Part::Stiffness | Part::Mass | Part::Mode(_) | Part::ModeDamping(_) => return None,
+            Part::Stiffness | Part::Mass | Part::Mode(_) | Part::ModeDamping(_) | Part::ModeDampingPerOctave(_) => {
+                return None;
+            }
             Part::ElementStiffness(range) => self.of_elements(range, false),
             Part::ElementMass(range) => self.of_elements(range, true),
             Part::GroundSpring(i) => Share::of_stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
@@ -174,9 +176,14 @@ impl Structure {
         }
     }
 
-    /// Factor on the damping that laws of the whole structure give a mode; 1 where it is not corrected.
+    /// Factor on the damping that laws of the whole structure give a mode at its natural frequency; 1 where it is not corrected.
     pub fn mode_damping(&self, mode: usize) -> f64 {
         self.origin.damping_of_modes.iter().find(|d| d.mode == mode).map_or(1.0, |d| d.factor)
+    }
+
+    /// The same at `omega`, rad/s.
+    pub fn mode_damping_at(&self, mode: usize, omega: f64) -> f64 {
+        self.origin.damping_of_modes.iter().find(|d| d.mode == mode).map_or(1.0, |d| d.factor_at(omega))
     }
 
     /// Modes whose damping is corrected.
@@ -186,21 +193,28 @@ impl Structure {
 
     /// Takes the factors on the damping of modes among `factors` beside those that are there, on the modes as they are now.
     fn correct_damping(&mut self, factors: &[(Part, f64)]) {
-        let mut all: Vec<(usize, f64)> = self.origin.damping_of_modes.iter().map(|d| (d.mode, d.factor)).collect();
+        let mut all: Vec<(usize, [f64; 2])> =
+            self.origin.damping_of_modes.iter().map(|d| (d.mode, [d.factor, d.per_octave])).collect();
         for &(part, factor) in factors {
-            let Part::ModeDamping(mode) = part else { continue };
-            match all.iter_mut().find(|(own, _)| *own == mode) {
-                Some((_, own)) => *own *= factor,
-                None => all.push((mode, factor)),
-            }
+            let (mode, which) = match part {
+                Part::ModeDamping(mode) => (mode, 0),
+                Part::ModeDampingPerOctave(mode) => (mode, 1),
+                _ => continue,
+            };
+            let k = all.iter().position(|(own, _)| *own == mode).unwrap_or_else(|| {
+                all.push((mode, [1.0; 2]));
+                all.len() - 1
+            });
+            all[k].1[which] *= factor;
         }
-        all.retain(|(_, factor)| *factor != 1.0);
+        all.retain(|(_, factors)| *factors != [1.0; 2]);
         self.origin.damping_of_modes.clear();
         let (false, Some(matrices)) = (all.is_empty(), &self.matrices) else { return };
         let Ok(modes) = self.modes() else { return };
-        let corrected = |(mode, factor): (usize, f64)| DampingOfMode {
+        let corrected = |(mode, [factor, per_octave]): (usize, [f64; 2])| DampingOfMode {
             mode,
             factor,
+            per_octave,
             pattern: modal_pattern(&matrices.mass, modes.shapes.col_as_slice(mode)),
             square: modes.omega[mode].powi(2),
         };

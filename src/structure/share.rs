@@ -26,6 +26,8 @@ pub enum Part {
     Mode(usize),
     /// Damping that laws of the whole structure give one undamped mode.
     ModeDamping(usize),
+    /// The same an octave above its natural frequency, over that at it: 1 as structural damping, 2 as viscous.
+    ModeDampingPerOctave(usize),
     /// Spring from a DOF to the ground: the sum of its row.
     GroundSpring(usize),
     /// Spring between two DOFs: minus the entry of the stiffness matrix.

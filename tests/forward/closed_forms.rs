@@ -82,6 +82,33 @@ fn modes_damped_each_by_itself() {
     }
 }
 
+/// Structural damping `i eta omega_r^2` of a mode that goes with frequency as viscous damping does, twice an octave higher, is
+/// viscous damping `i omega eta omega_r`: the sum of modes.
+#[test]
+fn structural_damping_that_doubles_by_octave_is_viscous() {
+    let (eta, sources) = (0.03, [whole(Effect::LossFactor, 0.03)]);
+    for count in [4, 70] {
+        let masses: Vec<f64> = (0..count).map(|i| 1.0 + 0.1 * (i % 3) as f64).collect();
+        let stated = chain(&masses, &vec![2e4; count], &vec![7e4; count - 1]);
+        let all: Vec<(Part, f64)> = (0..count).map(|mode| (Part::ModeDampingPerOctave(mode), 2.0)).collect();
+        let structure = stated.with_factors(&all);
+        let modes = stated.modes().unwrap();
+        for ratio in [0.6, 1.0, 1.9] {
+            let omega = ratio * modes.omega[1];
+            let response =
+                balanced(&structure, &sources, &Excitation::sine(omega, 2, c64::new(3.0, 0.0)), &Settings::default());
+            for dof in 0..count {
+                let term = |r: usize| {
+                    let z = c64::new(modes.omega[r].powi(2) - omega * omega, omega * eta * modes.omega[r]);
+                    c64::new(3.0 * modes.shapes[(dof, r)] * modes.shapes[(2, r)], 0.0) / z
+                };
+                let (found, expected) = (response.amplitude(dof, 1), (0..count).map(term).sum::<c64>());
+                assert!((found - expected).norm() < 1e-9 * expected.norm(), "{count}, {dof}: {found} {expected}");
+            }
+        }
+    }
+}
+
 /// Friction above the driving force holds everything.
 #[test]
 fn dry_friction_above_the_force_holds() {

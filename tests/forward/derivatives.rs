@@ -165,12 +165,17 @@ fn the_damping_of_modes() {
         source(Effect::Quadratic, &[2], &[2000.0]),
     ];
     let built = |more: &[(Part, f64)]| {
-        let corrected = [(Part::ModeDamping(1), 1.7), (Part::ModeDamping(2), 0.6)];
+        let corrected =
+            [(Part::ModeDamping(1), 1.7), (Part::ModeDamping(2), 0.6), (Part::ModeDampingPerOctave(2), 1.8)];
         five_masses().with_factors(&[&corrected[..], more].concat())
     };
-    let parts: Vec<Part> = (0..4).map(Part::ModeDamping).chain([Part::Stiffness, Part::Mass]).collect();
+    let parts: Vec<Part> = (0..4)
+        .flat_map(|mode| [Part::ModeDamping(mode), Part::ModeDampingPerOctave(mode)])
+        .chain([Part::Stiffness, Part::Mass])
+        .collect();
     let unknown = |part: &Part| match part {
         Part::ModeDamping(mode) => Unknown::ModeDamping(*mode),
+        Part::ModeDampingPerOctave(mode) => Unknown::ModeDampingPerOctave(*mode),
         Part::Stiffness => Unknown::Stiffness,
         _ => Unknown::Mass,
     };
@@ -201,6 +206,7 @@ fn unknowns_that_do_not_exist_are_named() {
         Unknown::ForceScale(1),
         Unknown::ModeStiffness(7),
         Unknown::ModeDamping(7),
+        Unknown::ModeDampingPerOctave(7),
     ] {
         let error =
             sensitivities(&run, &sources, &excitation(), &response, &(0..run.len()).collect::<Vec<_>>(), &[unknown])

@@ -101,7 +101,7 @@ impl ModalModel {
             z[(k, k)] = c64::new(self.modes.omega[k].powi(2) - omega * omega, 0.0);
         }
         for secant in secants {
-            self.add_secant(structure, secant, &mut z);
+            self.add_secant((structure, omega), secant, &mut z);
         }
         // An undamped resonance hit exactly: the least loss that keeps the answer finite.
         for k in 0..m {
@@ -131,8 +131,8 @@ impl ModalModel {
         filled_complex(re.nrows(), re.ncols(), |i, j| c64::new(re[(i, j)], im[(i, j)]))
     }
 
-    /// Adds `Phi_m^T D Phi_m` of one source.
-    fn add_secant(&self, structure: &Structure, secant: &Secant, z: &mut Mat<c64>) {
+    /// Adds `Phi_m^T D Phi_m` of one source at `omega`, rad/s.
+    fn add_secant(&self, (structure, omega): (&Structure, f64), secant: &Secant, z: &mut Mat<c64>) {
         let m = self.modes.len();
         match secant {
             Secant::Legs(legs) => {
@@ -143,7 +143,8 @@ impl ModalModel {
             }
             Secant::Whole(basis, None, factor) => {
                 for k in 0..m {
-                    z[(k, k)] += factor * structure.mode_damping(k) * basis.of_mode(self.modes.omega[k].powi(2));
+                    z[(k, k)] +=
+                        factor * structure.mode_damping_at(k, omega) * basis.of_mode(self.modes.omega[k].powi(2));
                 }
             }
             Secant::Whole(basis, Some(range), factor) => {

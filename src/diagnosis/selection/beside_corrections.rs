@@ -65,6 +65,10 @@ pub(super) fn beside_updating(
         if !rival.is_beaten_by(&weighed, from.as_ref())? {
             break;
         }
+        if from.is_none() {
+            let odds = rival.odds_of_change(&weighed);
+            weighed.probabilities.iter_mut().for_each(|p| *p *= odds);
+        }
         let (likely, least) = weighed.taken_into(&mut found);
         here =
             ReferenceModel { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };

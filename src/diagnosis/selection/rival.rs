@@ -6,7 +6,7 @@ use crate::diagnosis::selection::cross_validation::{exceeds, groups};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, explains_by_scatter};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
-use crate::diagnosis::selection::weighing::Weighed;
+use crate::diagnosis::selection::weighing::{LIGHT, Weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::{Kind, Source};
 
@@ -52,6 +52,16 @@ impl<'a, 'b> Rival<'a, 'b> {
     /// Evidence of the model.
     pub(super) fn least(&self) -> f64 {
         self.model.as_ref().map_or(f64::INFINITY, |(_, least)| *least)
+    }
+
+    /// Probability of the best of `weighed` against corrections alone, where it is one spring or mass, which they can stand for: what it
+    /// brings beyond the evidence for having been chosen are twice the logarithms of the odds. 1 of all else.
+    pub(super) fn odds_of_change(&self, weighed: &Weighed) -> f64 {
+        if !is_single_change(&weighed.fits[0].effects) || self.bare.linearisation.updating.is_by_modes() {
+            return 1.0;
+        }
+        let scale = scale_of(&weighed.fits, weighed.reference.count());
+        odds((self.least() - weighed.least) / scale - CHANGED)
     }
 
     /// Takes the model with an effect more, whose evidence is `least`.
@@ -105,6 +115,8 @@ impl<'a, 'b> Rival<'a, 'b> {
     ) -> Result<WithEvidence<'a>, DiagnosisError> {
         let (bare, best) = (self.bare, &weighed.fits[0]);
         let scale = scale_of(&weighed.fits, weighed.reference.count());
+        // Scales are estimated once more where corrections have ended.
+        let most = most + LIGHT;
         let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
         let misfit = bare.misfit();
         self.near = misfit < RIVALLED * scale || doubtful;
@@ -116,9 +128,7 @@ impl<'a, 'b> Rival<'a, 'b> {
             }
             None => bare.likely(most)?,
         };
-        if self.near {
-            alone = from_other_starts(alone, bare, weighed, most)?;
-        }
+        alone = from_other_starts(alone, bare, weighed, most)?;
         if let Some(modes) = damping_of_modes_alone(bare, weighed, most)?.filter(|(_, cost)| *cost < alone.1) {
             (alone, self.near) = (modes, true);
         }
@@ -212,6 +222,11 @@ fn evidence_needed(effects: &[Source], by_modes: bool) -> f64 {
     }
 }
 
+/// Probability that goes with so much evidence, twice the logarithm of the odds.
+fn odds(evidence: f64) -> f64 {
+    1.0 / (1.0 + (-0.5 * evidence).exp())
+}
+
 /// Whether the effects of a fit are one spring or mass, which corrections can stand for.
 fn is_single_change(effects: &[Source]) -> bool {
     matches!(effects, [only] if only.effect.is_mass_or_spring())
@@ -228,6 +243,13 @@ mod tests {
         assert!(!raises_error(0.099, None, 0.1) && raises_error(0.101, None, 0.1));
         let further = |error: f64| raises_error(error, Some(0.02), 0.1);
         assert!(!further(0.0215) && further(0.0225) && further(0.09));
+    }
+
+    /// As much evidence as the choice costs leaves even odds, six more 20 to 1.
+    #[test]
+    fn evidence_beyond_what_the_choice_costs_is_told_as_odds() {
+        assert!((odds(0.0) - 0.5).abs() < 1e-12 && (odds(2.0 * 19.0_f64.ln()) - 0.95).abs() < 1e-12);
+        assert!((odds(f64::INFINITY) - 1.0).abs() < 1e-12);
     }
 
     /// One spring or mass, which corrections can stand for, is held to less where they are of parts and to more where they are of modes.

@@ -59,7 +59,7 @@ impl<'a> ReferenceModel<'a> {
         starts: &Starts,
         settings: &Settings,
     ) -> Result<ReferenceModel<'a>, DiagnosisError> {
-        let updating = &updating.of_model();
+        let updating = &updating.of_model().with_common_damping_shared(self.predictor.stated().1);
         let predictor = Arc::new(self.predictor.updated(updating)?);
         let mut reference = ReferenceModel { predictor, predictions: Vec::new(), ..self.shallow() };
         reference.predictions = reference.estimator().predict(&[], &FINAL, &[])?;

@@ -47,7 +47,7 @@ const SETTLED_AGAIN: usize = 2;
 /// Rounds of each.
 const UPDATES: usize = 6;
 /// Evidence behind the best, with the scales of the search, beyond which no other scales would make a candidate the best.
-const LIGHT: f64 = 300.0;
+pub(super) const LIGHT: f64 = 300.0;
 /// How many times what the best leaves, where that is no noise, others may leave which are weighed too.
 const HEAVY: f64 = 2.0;
 /// Candidates whose scales are estimated.

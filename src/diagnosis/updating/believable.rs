@@ -12,7 +12,7 @@ impl Updating {
     /// Whether no parameter of damping is beyond all that models are wrong by.
     pub(crate) fn is_believable(&self) -> bool {
         self.parameters.iter().zip(&self.values).all(|(parameter, v)| match parameter {
-            UpdatingParameter::Structure(Part::ModeDamping(_)) => v.abs() < BELIEVED,
+            UpdatingParameter::Structure(Part::ModeDamping(_) | Part::ModeDampingPerOctave(_)) => v.abs() < BELIEVED,
             // Less of a known source may be what an effect takes over that was stated by it at small amplitudes.
             UpdatingParameter::Known(_) => *v < BELIEVED,
             // A clamp may be as soft as it likes, and an effect is found as well beside a part that is 30 % off.

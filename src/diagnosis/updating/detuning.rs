@@ -136,8 +136,8 @@ pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<De
 const LIKELY: f64 = 0.1;
 /// The same for the size of a known source: a factor of 1.65.
 pub(crate) const LIKELY_SIZE: f64 = 0.5;
-/// The same for the damping of a single mode: a factor of two, as measured modal damping scatters about any law of the whole
-/// structure.
+/// The same for the damping of a single mode, also an octave above it: a factor of two, as measured modal damping scatters about any
+/// law of the whole structure, and as lies between structural and viscous damping.
 pub(crate) const LIKELY_MODE_DAMPING: f64 = 0.7;
 
 /// The same for a support.
@@ -148,7 +148,9 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
     let updating = &reference.linearisation.updating;
     updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
         UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
-        UpdatingParameter::Structure(Part::ModeDamping(_)) => v.abs() < LIKELY_MODE_DAMPING,
+        UpdatingParameter::Structure(Part::ModeDamping(_) | Part::ModeDampingPerOctave(_)) => {
+            v.abs() < LIKELY_MODE_DAMPING
+        }
         UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Gain(_)

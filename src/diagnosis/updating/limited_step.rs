@@ -14,9 +14,10 @@ impl Updating {
         let moved = |(k, (from, to)): (usize, (&f64, &f64))| {
             let longest = match &self.parameters[k] {
                 parameter if !parameter.is_of_model() => return 0.0,
-                UpdatingParameter::Known(_) | UpdatingParameter::Structure(Part::Support(_) | Part::ModeDamping(_)) => {
-                    LONGEST_OF_SIZE
-                }
+                UpdatingParameter::Known(_)
+                | UpdatingParameter::Structure(
+                    Part::Support(_) | Part::ModeDamping(_) | Part::ModeDampingPerOctave(_),
+                ) => LONGEST_OF_SIZE,
                 _ => LONGEST,
             };
             from + (to - from).clamp(-longest, longest)

@@ -3,6 +3,7 @@
 pub(crate) mod absorbed_damping;
 pub(crate) mod base_load;
 pub(crate) mod believable;
+pub(crate) mod common_damping;
 pub(crate) mod correction;
 pub(crate) mod detuning;
 pub(crate) mod limited_step;

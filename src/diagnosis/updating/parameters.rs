@@ -53,6 +53,7 @@ impl UpdatingParameter {
             // A support is known about as well as the size of a source.
             Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
             Self::Structure(Part::ModeDamping(_)) => 7,
+            Self::Structure(Part::ModeDampingPerOctave(_)) => 8,
             Self::Structure(_) | Self::Shape { .. } => 0,
             Self::Gain(_) | Self::ForceGain(_) => 2,
             Self::Delay(_) => 3,
@@ -333,6 +334,7 @@ fn unknown(part: Part) -> Unknown {
         Part::Mass => Unknown::Mass,
         Part::Mode(r) => Unknown::ModeStiffness(r),
         Part::ModeDamping(r) => Unknown::ModeDamping(r),
+        Part::ModeDampingPerOctave(r) => Unknown::ModeDampingPerOctave(r),
         part => Unknown::Part(part),
     }
 }

@@ -42,13 +42,15 @@ pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
 }
 
 /// Modes whose damping by laws of the whole structure is known no better than those laws: no structure damps its modes in just
-/// the proportion that they state. One mode alone is damped by their size.
+/// the proportion that they state. One mode alone is damped by their size. Nor is it known whether damping that is stated as
+/// structural is viscous: it shows where a stiffening joint takes the response away from the natural frequency.
 pub(crate) fn damped_modes(structure: &Structure, known: &[Source], omegas: &[f64]) -> Vec<Part> {
     if !known.iter().any(|source| source.place == Place::Whole(None)) {
         return Vec::new();
     }
     let modes = modes_in_band(structure, omegas);
-    if modes.len() > 1 { modes.into_iter().map(Part::ModeDamping).collect() } else { Vec::new() }
+    let sizes: Vec<usize> = if modes.len() > 1 { modes.clone() } else { Vec::new() };
+    sizes.into_iter().map(Part::ModeDamping).chain(modes.into_iter().map(Part::ModeDampingPerOctave)).collect()
 }
 
 /// Modes whose frequencies the runs come near to.

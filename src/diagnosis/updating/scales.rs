@@ -19,6 +19,8 @@ pub struct Scales {
     pub session: f64,
     /// Damping of single modes, relative.
     pub damping: f64,
+    /// The same an octave above the natural frequency: between structural and viscous damping it is 0.69.
+    pub damping_per_octave: f64,
 }
 
 impl Scales {
@@ -33,6 +35,7 @@ impl Scales {
         response: 3e-3,
         session: 5e-4,
         damping: 0.05,
+        damping_per_octave: 0.1,
     };
     /// Where their estimation starts, and what is kept where the data cannot tell: what laboratories report.
     pub const START: Self = Self {
@@ -44,6 +47,7 @@ impl Scales {
         response: 1e-3,
         session: 2e-4,
         damping: 0.05,
+        damping_per_octave: 0.1,
     };
     /// Least: below any measurement.
     pub const LEAST: Self = Self {
@@ -55,6 +59,7 @@ impl Scales {
         response: 1e-7,
         session: 1e-8,
         damping: 1e-5,
+        damping_per_octave: 1e-4,
     };
     /// Greatest: beyond, it is not this structure, or the record is not of this run.
     pub const GREATEST: Self = Self {
@@ -66,11 +71,22 @@ impl Scales {
         response: 0.1,
         session: 0.02,
         damping: 0.5,
+        damping_per_octave: 0.5,
     };
 
     /// The same scales in a list, in the order of the fields.
-    pub fn list(&self) -> [f64; 8] {
-        [self.model, self.known, self.gain, self.phase, self.shift, self.response, self.session, self.damping]
+    pub fn list(&self) -> [f64; 9] {
+        [
+            self.model,
+            self.known,
+            self.gain,
+            self.phase,
+            self.shift,
+            self.response,
+            self.session,
+            self.damping,
+            self.damping_per_octave,
+        ]
     }
 
     /// Minus twice the logarithm of their prior density, half-Cauchy about where they start.
@@ -87,10 +103,10 @@ impl Scales {
     }
 
     /// Scales from such a list, each kept between the least and the greatest.
-    pub fn from_list(list: [f64; 8]) -> Self {
+    pub fn from_list(list: [f64; 9]) -> Self {
         let (least, greatest) = (Self::LEAST.list(), Self::GREATEST.list());
-        let [model, known, gain, phase, shift, response, session, damping] =
+        let [model, known, gain, phase, shift, response, session, damping, damping_per_octave] =
             std::array::from_fn(|k| list[k].clamp(least[k], greatest[k]));
-        Self { model, known, gain, phase, shift, response, session, damping }
+        Self { model, known, gain, phase, shift, response, session, damping, damping_per_octave }
     }
 }

@@ -20,6 +20,7 @@ pub enum Corrected {
     Mass,
     Mode,
     ModeDamping,
+    ModeDampingPerOctave,
     Spring,
     PointMass,
     ElementStiffness,
@@ -28,11 +29,12 @@ pub enum Corrected {
 }
 
 impl Corrected {
-    const WORDS: [&'static str; 9] = [
+    const WORDS: [&'static str; 10] = [
         "stiffness",
         "mass",
         "mode",
         "mode_damping",
+        "mode_damping_per_octave",
         "spring",
         "point_mass",
         "element_stiffness",
@@ -46,6 +48,7 @@ impl Corrected {
             Self::Mass,
             Self::Mode,
             Self::ModeDamping,
+            Self::ModeDampingPerOctave,
             Self::Spring,
             Self::PointMass,
             Self::ElementStiffness,
@@ -59,7 +62,7 @@ impl Corrected {
     fn takes(self, key: &str) -> Result<(), Problem> {
         let own = match self {
             Self::Stiffness | Self::Mass => "",
-            Self::Mode | Self::ModeDamping => "mode",
+            Self::Mode | Self::ModeDamping | Self::ModeDampingPerOctave => "mode",
             Self::Spring | Self::PointMass => "dofs",
             Self::ElementStiffness | Self::ElementMass => "elements",
             Self::Support => "node",
@@ -104,6 +107,9 @@ impl CorrectionTable {
             Part::Mass => plain(Corrected::Mass),
             Part::Mode(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::Mode) },
             Part::ModeDamping(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::ModeDamping) },
+            Part::ModeDampingPerOctave(mode) => {
+                Self { mode: Some(mode as i64 + 1), ..plain(Corrected::ModeDampingPerOctave) }
+            }
             Part::GroundSpring(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::Spring) },
             Part::Coupling(pair) => Self { dofs: pair.map(label).to_vec(), ..plain(Corrected::Spring) },
             Part::PointMass(dof) => Self { dofs: vec![label(dof)], ..plain(Corrected::PointMass) },
@@ -148,6 +154,7 @@ impl CorrectionTable {
             Corrected::Mass => Part::Mass,
             Corrected::Mode => Part::Mode(mode()?),
             Corrected::ModeDamping => Part::ModeDamping(mode()?),
+            Corrected::ModeDampingPerOctave => Part::ModeDampingPerOctave(mode()?),
             Corrected::Spring => match &self.dofs[..] {
                 [one] => Part::GroundSpring(dof(one)?),
                 [first, second] => Part::Coupling([dof(first)?, dof(second)?]),

@@ -10,6 +10,7 @@ use super::error::ModelError;
 use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
 use crate::effects::{Basis, Kind, Leg, Source, place::Place};
+use crate::structure::mode_damping::octaves;
 use crate::structure::{DampingOfMode, Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
 use faer::{Mat, c64};
@@ -87,8 +88,8 @@ impl LinearPart {
         self.structure.len()
     }
 
-    /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts.
-    pub(crate) fn apply_whole(&self, source: &Source, factor: c64, x: &[c64]) -> Vec<c64> {
+    /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts at `omega`.
+    pub(crate) fn apply_whole(&self, source: &Source, factor: c64, omega: f64, x: &[c64]) -> Vec<c64> {
         let own = self.whole.iter().find(|(s, _)| s.place == source.place && s.effect == source.effect);
         let Kind::Whole(law) = source.effect.kind() else { return vec![c64::new(0.0, 0.0); x.len()] };
         if let Some((_, Some(own))) = own {
@@ -96,7 +97,7 @@ impl LinearPart {
         }
         let mut result = multiply(law.basis().of_system(self.matrices()), factor, x);
         for mode in self.structure.damping_of_modes() {
-            add_along(&mode.pattern, factor * law.basis().more_of(mode), x, &mut result);
+            add_along(&mode.pattern, factor * law.basis().more_of_at(mode, omega), x, &mut result);
         }
         result
     }
@@ -105,7 +106,8 @@ impl LinearPart {
     /// through `K` and `M`, N/(m kg): its shares by stiffness and by mass.
     fn damping_of(&self, mode: &DampingOfMode, omega: f64) -> [c64; 2] {
         let [by_stiffness, by_mass] = self.damping_factors(omega);
-        [by_stiffness * self.stiffness * Basis::Stiffness.more_of(mode), by_mass * Basis::Mass.more_of(mode)]
+        let more_of = |basis: Basis| basis.more_of_at(mode, omega);
+        [by_stiffness * self.stiffness * more_of(Basis::Stiffness), by_mass * more_of(Basis::Mass)]
     }
 
     /// What the corrected damping of modes adds to `Z x` and depends on all stiffness or, else, on all mass.
@@ -123,10 +125,18 @@ impl LinearPart {
     pub(crate) fn apply_mode_damping(&self, mode: usize, omega: f64, x: &[c64]) -> Option<Vec<c64>> {
         let square = *self.basis.squares.get(mode)?;
         let [by_stiffness, by_mass] = self.damping_factors(omega);
-        let size = (by_stiffness * (self.stiffness * square) + by_mass) * self.structure.mode_damping(mode);
+        let size = (by_stiffness * (self.stiffness * square) + by_mass) * self.structure.mode_damping_at(mode, omega);
         let mut result = vec![c64::new(0.0, 0.0); x.len()];
         add_along(&self.times_mass(self.basis.shape(mode)), -size, x, &mut result);
         Some(result)
+    }
+
+    /// The same of one whose damping grows with frequency, by the logarithm of its factor an octave above the natural frequency.
+    pub(crate) fn apply_mode_damping_per_octave(&self, mode: usize, omega: f64, x: &[c64]) -> Option<Vec<c64>> {
+        let octaves = octaves(omega, *self.basis.squares.get(mode)?);
+        let mut load = self.apply_mode_damping(mode, omega, x)?;
+        load.iter_mut().for_each(|force| *force *= octaves);
+        Some(load)
     }
 
     /// `(stiffness K + mass M) x` for the two given factors.
