@@ -12,7 +12,7 @@ use dashpot::effects::{Effect, Kind, Place, Source};
 use dashpot::measurement::Record;
 use dashpot::response::harmonic_balance::Excitation;
 use dashpot::structure::points::PointParameters;
-use dashpot::structure::{LumpedMass, Structure};
+use dashpot::structure::{LumpedMass, Part, Structure};
 use serde_json::{Value, json};
 
 /// What is hidden, in turn; the order is part of what a seed means, so laws are only ever added at the end.
@@ -47,6 +47,8 @@ pub(crate) struct Plan {
     /// How far springs and masses are off, %.
     pub percent: u8,
     pub form: Form,
+    /// Whether the damping of the whole structure is stated as structural and is viscous.
+    pub viscous: bool,
 }
 
 /// What the project file gives.
@@ -89,12 +91,19 @@ impl Plan {
             x if x < 0.72 && hidden.is_none_or(dissipates) => Form::Points,
             _ => Form::Chain,
         };
-        Self { effect: hidden, percent, form }
+        Self { effect: hidden, percent, form, viscous: false }
+    }
+
+    /// Whether a loss factor is stated where damping is viscous.
+    fn is_structural(self) -> bool {
+        let whole = self.effect.is_some_and(|e| matches!(e.kind(), Kind::Whole(_)));
+        self.viscous && self.form != Form::Points && !whole
     }
 
     pub(crate) fn name(self, seed: u64) -> String {
         let effect = self.effect.map_or("none", Effect::name);
-        format!("lab{}-{}-{effect}-{seed}", self.percent, self.form.word())
+        let class = if self.viscous { "structural" } else { "lab" };
+        format!("{class}{}-{}-{effect}-{seed}", self.percent, self.form.word())
     }
 }
 
@@ -104,7 +113,7 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
     let lumped = lumped(&specimen, random);
     let model = specimen.build_with(&lumped);
     let percent = f64::from(plan.percent);
-    let (truth, mut errors) = perturbed(&specimen, &lumped, percent, random);
+    let (mut truth, mut errors) = perturbed(&specimen, &lumped, percent, random);
     let kindness = kindness(plan, random);
     let known = known(plan, &specimen, &model, random);
     let factors: Vec<f64> = known.iter().map(|s| known_factor(s, percent, random)).collect();
@@ -116,7 +125,11 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
         .iter()
         .zip(&factors)
         .map(|(s, f)| truth.mapped(s, &[&[s.parameters[0] * f], &s.parameters[1..]].concat()))
+        .map(|s| if s.effect == Effect::LossFactor { viscous_instead_of(&s, &truth) } else { s })
         .collect();
+    if plan.is_structural() {
+        truth.structure = damped_alike(&truth.structure, random);
+    }
     let modes = truth.structure.modes().unwrap();
     let mut excitations = excitations(&model, &modes.omega, kindness, random);
     let sensors = sensors(&model, kindness, random);
@@ -201,11 +214,27 @@ fn lumped(specimen: &Specimen, random: &mut Random) -> Vec<LumpedMass> {
     vec![LumpedMass { dof: structure.label(rows[random.below(rows.len())]).to_string(), mass }]
 }
 
+/// The viscous law that damps the first mode as a loss factor does.
+fn viscous_instead_of(structural: &Source, truth: &Truth) -> Source {
+    let beta = structural.parameters[0] / truth.structure.modes().unwrap().omega[0];
+    Source::known(Effect::StiffnessProportional, Place::Whole(None), &[beta])
+}
+
+/// A structure in which damping in proportion to stiffness damps all modes about as much as the first, as a loss factor does at their
+/// natural frequencies.
+fn damped_alike(structure: &Structure, random: &mut Random) -> Structure {
+    let omega = structure.modes().unwrap().omega;
+    let of_mode = |(mode, w): (usize, &f64)| (Part::ModeDamping(mode), omega[0] / w * factor(KNOWN, random));
+    structure.with_factors(&omega.iter().enumerate().map(of_mode).collect::<Vec<_>>())
+}
+
 /// What the project knows: damping, and on some beams a spring to the ground. Nothing that the hidden effect is a part of.
 fn known(plan: Plan, specimen: &Specimen, model: &Structure, random: &mut Random) -> Vec<Source> {
     let mut known = specimen.known(model, random);
     if plan.effect.is_some_and(|e| matches!(e.kind(), Kind::Whole(_))) {
         known.retain(|s| !matches!(s.effect.kind(), Kind::Whole(_)));
+    } else if plan.is_structural() {
+        known = vec![Source::known(Effect::LossFactor, Place::Whole(None), &[random.within(0.006, 0.02)])];
     }
     if let Specimen::Beam(beam) = specimen
         && random.uniform() < 0.3
@@ -275,7 +304,9 @@ fn records(
     let all: Vec<Source> = known.iter().chain(hidden).cloned().collect();
     let mut records = Vec::new();
     for (r, excitation) in excitations.iter().enumerate() {
-        let structure = imported(&truth.structure, (1.0 + errors.drift[r]).powi(2)).build(&[]).unwrap();
+        let drifted = imported(&truth.structure, (1.0 + errors.drift[r]).powi(2)).build(&[]).unwrap();
+        let damping = truth.structure.damping_of_modes().iter().map(|d| (Part::ModeDamping(d.mode), d.factor));
+        let structure = drifted.with_factors(&damping.collect::<Vec<_>>());
         let motion = steady(&structure, &all, excitation)?;
         let mut faults = errors.faults(r);
         faults.extend(hidden.iter().filter(|s| matches!(s.effect.kind(), Kind::Channel(_))).cloned());

@@ -121,11 +121,12 @@ pub(crate) fn report(tallies: &BTreeMap<String, Tally>) -> String {
     };
     let mut lines = format!("{HEAD}\n");
     tallies.iter().for_each(|(class, tally)| lines.push_str(&format!("{}\n", tally.row(class))));
-    let laboratory = sum(&|class| class.starts_with("lab"));
+    let is_laboratory = |class: &str| class.starts_with("lab") || class.starts_with("structural");
+    let laboratory = sum(&is_laboratory);
     let all = sum(&|_| true);
     if laboratory.projects > 0 && laboratory.projects < all.projects {
         lines.push_str(&format!("{}\n", laboratory.row("all lab")));
-        lines.push_str(&format!("{}\n", sum(&|class| !class.starts_with("lab")).row("exact")));
+        lines.push_str(&format!("{}\n", sum(&|class| !is_laboratory(class)).row("exact")));
     }
     lines.push_str(&format!("{}\n\n", all.row("all")));
     for (class, tally) in tallies {

@@ -173,7 +173,15 @@ impl RunData {
     /// What the error of response channel `c` is measured by: its size, at least a twentieth of the largest of its
     /// quantity in the run, so that a sensor at a node does not rule.
     pub fn scale(&self, c: usize) -> f64 {
-        self.responses[c].size().max(self.largest(self.responses[c].quantity) / 20.0)
+        self.scale_beside(c, |_| 1.0)
+    }
+
+    /// The same where channels read too large by their `gain`, as the record reads.
+    pub fn scale_beside(&self, c: usize, gain: impl Fn(&ChannelData) -> f64) -> f64 {
+        let own = &self.responses[c];
+        let same = self.responses.iter().filter(|other| other.quantity == own.quantity);
+        let largest = same.map(|other| other.size() / gain(other)).fold(0.0, f64::max);
+        own.size().max(gain(own) * largest / 20.0)
     }
 
     /// The measured forces as excitation, each divided by the transfer of its channel at each harmonic; harmonics that are no
@@ -305,5 +313,30 @@ mod tests {
         // What the exciter adds stays, the noise between is at rest.
         assert_eq!(force(&[1.0, 2e-3, 0.1, 1e-3]), [c64::new(0.0, 0.5), c64::new(0.0, 0.0), c64::new(0.0, 0.05)]);
         assert_eq!(force(&[1e-4]), [c64::new(0.0, 5e-5)], "the fundamental always drives");
+    }
+
+    /// What the error of a channel is measured by is that of the record in which all channels read rightly, as the channel reads: the
+    /// largest, of which a node is given a twentieth, is 1.5 times too large here.
+    #[test]
+    fn errors_beside_a_gain_are_measured_as_in_the_mended_record() {
+        let run = |sizes: [f64; 3]| {
+            let channel = |(k, size): (usize, f64)| ChannelData {
+                name: format!("acc@{}", k + 1),
+                quantity: Quantity::Acceleration,
+                dof: k,
+                measured: vec![c64::new(0.6 * size, 0.8 * size)],
+                deviation: vec![1e-3],
+            };
+            let responses: Vec<ChannelData> = sizes.into_iter().enumerate().map(channel).collect();
+            let (forces, alive) = (Vec::new(), vec![0, 1, 2]);
+            RunData { index: 0, omega: 1.0, harmonics: 1, forces, responses, alive, on_moving_base: false }
+        };
+        let (read, mended) = (run([3.0, 0.01, 1.0]), run([2.0, 0.01, 1.0]));
+        let gain = |channel: &ChannelData| if channel.dof == 0 { 1.5 } else { 1.0 };
+        for c in 0..3 {
+            let scale = read.scale_beside(c, gain) / gain(&read.responses[c]);
+            assert!((scale - mended.scale(c)).abs() < 1e-12, "{c}: {scale}");
+        }
+        assert!((mended.scale(1) - 0.1).abs() < 1e-12 && (read.scale(1) - 0.15).abs() < 1e-12);
     }
 }

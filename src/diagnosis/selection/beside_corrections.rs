@@ -21,7 +21,7 @@ pub(super) fn beside_updating(
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
     let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
-    let stated = reference.estimator().error(&reference.predictions);
+    let stated = reference.estimator().error(&reference.predictions, &[]);
     let bare = reference.bare()?;
     let (mut here, first, corrected) = match first_candidates((&reference, before), &bare)? {
         First::Fits(here, fits, corrected) => (here, fits, corrected),

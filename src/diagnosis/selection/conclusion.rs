@@ -93,7 +93,12 @@ impl Outcome<'_> {
             });
         }
         alternatives(&alike_runs, &top, &weights, &mut diagnosis)?;
-        diagnosis.suggestions.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        // Corrections are those beside the best set: it is what can be added, and comes first.
+        let is_alternative = |s: &Suggestion| !best.effects.iter().any(|effect| effect.is_same(&s.added.source));
+        let alternative_then_probability = |a: &Suggestion, b: &Suggestion| {
+            is_alternative(a).cmp(&is_alternative(b)).then(b.probability.total_cmp(&a.probability))
+        };
+        diagnosis.suggestions.sort_by(alternative_then_probability);
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
         let rival = top.fits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
         diagnosis.next_test = match rival {

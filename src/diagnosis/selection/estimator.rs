@@ -1,10 +1,10 @@
 //! Predictions of all runs and their whitened residuals: what fits on the response are made with.
 
 use crate::control::Control;
-use crate::diagnosis::residual::data::{Data, DiagnosisError, size};
+use crate::diagnosis::residual::data::{ChannelData, Data, DiagnosisError, size};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
 use crate::diagnosis::updating::noise_model::NoiseModel;
-use crate::effects::Source;
+use crate::effects::{Kind, Place, Source};
 use crate::math::statistics::root_mean_square;
 use crate::response::harmonic_balance::{Response, ResponseError, Settings};
 use faer::c64;
@@ -91,19 +91,32 @@ impl Estimator<'_> {
         rows.extend(own);
     }
 
-    /// Relative root mean square error of predictions over runs and channels.
-    pub(crate) fn error(&self, predictions: &[RunPrediction]) -> f64 {
+    /// Relative root mean square error of predictions with `effects` over runs and channels, those among them that read wrongly being
+    /// mended.
+    pub(crate) fn error(&self, predictions: &[RunPrediction], effects: &[Source]) -> f64 {
         let mut errors = Vec::new();
         for (run, prediction) in self.data.runs.iter().zip(predictions) {
+            let gain = |channel: &ChannelData| gain_of(effects, &channel.name, run.omega);
             for (c, channel) in run.responses.iter().enumerate() {
                 let pairs = channel.measured.iter().zip(&prediction.channels[c]);
                 let difference: Vec<c64> = pairs.map(|(y, m)| y - m).collect();
-                let scale = run.scale(c);
+                let scale = run.scale_beside(c, gain);
                 errors.push(if scale > 0.0 { size(&difference) / scale } else { 0.0 });
             }
         }
         root_mean_square(&errors)
     }
+}
+
+/// How many times too large a channel reads by the errors of channels among `effects` at `omega`, rad/s.
+fn gain_of(effects: &[Source], channel: &str, omega: f64) -> f64 {
+    let gain = |source: &Source| match (source.effect.kind(), &source.place) {
+        (Kind::Channel(law), Place::Channel(name)) if name == channel => {
+            Some(law.transfer(source.parameters[0], omega).norm())
+        }
+        _ => None,
+    };
+    effects.iter().filter_map(gain).filter(|gain| *gain > 0.0).product()
 }
 
 /// The responses of predictions, for others to start from.

@@ -96,7 +96,7 @@ impl Estimator<'_> {
                 predictions[r] = Some(predicted.or_else(|_| self.at_rest(r))?);
             }
         }
-        Ok(self.error(&predictions.into_iter().flatten().collect::<Vec<_>>()))
+        Ok(self.error(&predictions.into_iter().flatten().collect::<Vec<_>>(), &fit.effects))
     }
 }
 
@@ -109,7 +109,7 @@ fn finished(estimator: &Estimator, variables: &Variables, descent: Descent, tria
     FittedModel {
         chi_square: descent.chi_square,
         parameters: variables.len(),
-        error: estimator.error(&trial.predictions),
+        error: estimator.error(&trial.predictions, &effects),
         starts: starts_of(trial.predictions),
         effects,
         deviations,

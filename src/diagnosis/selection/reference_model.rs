@@ -178,7 +178,7 @@ impl<'a> ReferenceModel<'a> {
         let before = sum_of_squares(&estimator.residual(&self.predictions));
         Step {
             added: Vec::new(),
-            error: estimator.error(&self.predictions),
+            error: estimator.error(&self.predictions, &[]),
             misfit: before / self.count().max(1) as f64,
         }
     }

@@ -163,8 +163,9 @@ fn from_other_starts<'a>(
 }
 
 /// The model with corrections alone, the law of the whole structure of `weighed` moved into factors on the damping of modes, and its
-/// evidence; none where another effect is among them, or a correction is larger than is likely. Beside a law that is stated the two say
-/// the same of the modes in the band. It is not followed where its evidence would stay above `most`.
+/// evidence; none where another effect is among them, or a correction is larger than is likely though those beside the law are not.
+/// Beside a law that is stated the two say the same of the modes in the band. It is not followed where its evidence would stay above
+/// `most`.
 fn damping_of_modes_alone<'a>(
     bare: &ReferenceModel<'a>,
     weighed: &Weighed<'a>,
@@ -174,7 +175,8 @@ fn damping_of_modes_alone<'a>(
     let beside = &weighed.reference.linearisation.updating;
     let Some(start) = beside.absorbing_damping(structure, known, &weighed.fits[0].effects) else { return Ok(None) };
     let Some(moved) = if_possible(bare.updated(&start, &[], &Vec::new()))? else { return Ok(None) };
-    Ok(Some(moved.estimated(most)?).filter(|(estimated, _)| is_likely(estimated)))
+    let doubtful = !is_likely(&weighed.reference);
+    Ok(Some(moved.estimated(most)?).filter(|(estimated, _)| doubtful || is_likely(estimated)))
 }
 
 /// Whether the corrections of `likely` alone overfit, and are no rival of the effects of `best`: they predict the tests worse than the

@@ -268,14 +268,14 @@ impl<'a> ReferenceModel<'a> {
                 Err(_) => {}
             }
         }
-        Ok(estimator.error(&predictions))
+        Ok(estimator.error(&predictions, effects))
     }
 
     /// The same where the responses are those that follow from `starts`.
     pub(super) fn error_of_followed(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
         let predictor = self.of_structure()?;
         let estimator = Estimator { predictor: &predictor, ..self.estimator() };
-        Ok(estimator.error(&estimator.predict(effects, &FINAL, starts)?))
+        Ok(estimator.error(&estimator.predict(effects, &FINAL, starts)?, effects))
     }
 
     /// The updated model with all runs alike.

@@ -108,7 +108,14 @@ fn with_likely_scales(mut fits: Vec<(ReferenceModel<'_>, FittedModel)>) -> Resul
     let count = fits.iter().take(most).take_while(|(reference, fit)| cost(reference, Some(fit)) < near).count();
     let mut all = control.map(count, |k| scaled(&fits[k])).into_iter().collect::<Result<Vec<_>, _>>()?;
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    Ok(all)
+    // One set that was refined from two starts is one hypothesis.
+    let mut distinct: Vec<Candidate> = Vec::new();
+    for candidate in all {
+        if !distinct.iter().any(|known| same_set(&known.fit.effects, &candidate.fit.effects)) {
+            distinct.push(candidate);
+        }
+    }
+    Ok(distinct)
 }
 
 /// A candidate with the scales that are most likely beside it, where they bring evidence.

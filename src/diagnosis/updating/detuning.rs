@@ -116,7 +116,7 @@ pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<De
     let estimator = reference.estimator();
     let before = sum_of_squares(&estimator.residual(&reference.predictions));
     if agrees(&reference, before, 0) {
-        let error_after = estimator.error(&reference.predictions);
+        let error_after = estimator.error(&reference.predictions, &[]);
         return Ok(Some(Detuning { reading: Reading::Agrees, share: 0.0, error_after, corrections: Vec::new() }));
     }
     let bare = reference.bare()?;
@@ -128,7 +128,7 @@ pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<De
         (true, false) if share > MOST => Reading::DetunedAndMissing,
         _ => Reading::Missing,
     };
-    let error_after = bare.estimator().error(&bare.predictions);
+    let error_after = bare.estimator().error(&bare.predictions, &[]);
     Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare) }))
 }
 
