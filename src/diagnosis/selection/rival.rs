@@ -115,8 +115,6 @@ impl<'a, 'b> Rival<'a, 'b> {
     ) -> Result<WithEvidence<'a>, DiagnosisError> {
         let (bare, best) = (self.bare, &weighed.fits[0]);
         let scale = scale_of(&weighed.fits, weighed.reference.count());
-        // Scales are estimated once more where corrections have ended.
-        let most = most + LIGHT;
         let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
         let misfit = bare.misfit();
         self.near = misfit < RIVALLED * scale || doubtful;
@@ -126,9 +124,12 @@ impl<'a, 'b> Rival<'a, 'b> {
             None if most < f64::INFINITY && misfit > UNEXPLAINED * scale => {
                 (bare.with_scales(bare.linearisation.updating.scales), f64::INFINITY)
             }
-            None => bare.likely(most)?,
+            // Scales are estimated once more where corrections have ended.
+            None => bare.likely(most + LIGHT)?,
         };
-        alone = from_other_starts(alone, bare, weighed, most)?;
+        if self.near || alone.1 == f64::INFINITY {
+            alone = from_other_starts(alone, bare, weighed, most)?;
+        }
         if let Some(modes) = damping_of_modes_alone(bare, weighed, most)?.filter(|(_, cost)| *cost < alone.1) {
             (alone, self.near) = (modes, true);
         }

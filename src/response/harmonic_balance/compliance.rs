@@ -97,7 +97,7 @@ impl LinearPart {
         }
         let mut result = multiply(law.basis().of_system(self.matrices()), factor, x);
         for mode in self.structure.damping_of_modes() {
-            add_along(&mode.pattern, factor * law.basis().more_of_at(mode, omega), x, &mut result);
+            add_along(&mode.pattern, factor * law.basis().more_of_at(mode, self.of_stated(omega)), x, &mut result);
         }
         result
     }
@@ -106,15 +106,29 @@ impl LinearPart {
     /// through `K` and `M`, N/(m kg): its shares by stiffness and by mass.
     fn damping_of(&self, mode: &DampingOfMode, omega: f64) -> [c64; 2] {
         let [by_stiffness, by_mass] = self.damping_factors(omega);
-        let more_of = |basis: Basis| basis.more_of_at(mode, omega);
+        let more_of = |basis: Basis| basis.more_of_at(mode, self.of_stated(omega));
         [by_stiffness * self.stiffness * more_of(Basis::Stiffness), by_mass * more_of(Basis::Mass)]
+    }
+
+    /// What changes of the damping of a mode by the octaves above its natural frequency, which go with the root of stiffness over mass.
+    fn by_natural_frequency(&self, mode: &DampingOfMode, omega: f64, of_mass: bool) -> c64 {
+        let [by_stiffness, by_mass] = self.damping_factors(omega);
+        let damping = by_stiffness * (self.stiffness * mode.square) + by_mass;
+        let octaves = if of_mass { 0.5 } else { -0.5 } * mode.per_octave.log2();
+        damping * (mode.factor_at(self.of_stated(omega)) * octaves)
+    }
+
+    /// The frequency, rad/s, that is as many octaves above the modes as stated as `omega` is above those of this stiffness.
+    fn of_stated(&self, omega: f64) -> f64 {
+        omega / self.stiffness.sqrt()
     }
 
     /// What the corrected damping of modes adds to `Z x` and depends on all stiffness or, else, on all mass.
     pub(crate) fn apply_damping_of_modes(&self, omega: f64, of_mass: bool, factor: c64, x: &[c64]) -> Vec<c64> {
         let mut result = vec![c64::new(0.0, 0.0); x.len()];
         for mode in self.structure.damping_of_modes() {
-            let size = self.damping_of(mode, omega)[usize::from(of_mass)];
+            let size =
+                self.damping_of(mode, omega)[usize::from(of_mass)] + self.by_natural_frequency(mode, omega, of_mass);
             add_along(&mode.pattern, factor * size, x, &mut result);
         }
         result
@@ -125,7 +139,8 @@ impl LinearPart {
     pub(crate) fn apply_mode_damping(&self, mode: usize, omega: f64, x: &[c64]) -> Option<Vec<c64>> {
         let square = *self.basis.squares.get(mode)?;
         let [by_stiffness, by_mass] = self.damping_factors(omega);
-        let size = (by_stiffness * (self.stiffness * square) + by_mass) * self.structure.mode_damping_at(mode, omega);
+        let size = (by_stiffness * (self.stiffness * square) + by_mass)
+            * self.structure.mode_damping_at(mode, self.of_stated(omega));
         let mut result = vec![c64::new(0.0, 0.0); x.len()];
         add_along(&self.times_mass(self.basis.shape(mode)), -size, x, &mut result);
         Some(result)
@@ -133,7 +148,7 @@ impl LinearPart {
 
     /// The same of one whose damping grows with frequency, by the logarithm of its factor an octave above the natural frequency.
     pub(crate) fn apply_mode_damping_per_octave(&self, mode: usize, omega: f64, x: &[c64]) -> Option<Vec<c64>> {
-        let octaves = octaves(omega, *self.basis.squares.get(mode)?);
+        let octaves = octaves(self.of_stated(omega), *self.basis.squares.get(mode)?);
         let mut load = self.apply_mode_damping(mode, omega, x)?;
         load.iter_mut().for_each(|force| *force *= octaves);
         Some(load)
