@@ -55,7 +55,7 @@ pub(crate) fn cases(seeds: Range<u64>) -> Vec<Case> {
                 }
             }
         }
-        cases.push(viscous(seed));
+        cases.push(structural(seed));
         cases.extend(unsteady(seed));
         cases.extend(laboratory_records(seed));
     }
@@ -63,9 +63,9 @@ pub(crate) fn cases(seeds: Range<u64>) -> Vec<Case> {
 }
 
 /// A project of the laboratory whose damping is stated as structural and is viscous.
-fn viscous(seed: u64) -> Case {
+fn structural(seed: u64) -> Case {
     let mut random = Random::new(9_000_000_000 + seed);
-    let plan = Plan { viscous: true, ..Plan::of(seed, &mut random) };
+    let plan = Plan { structural: true, ..Plan::of(seed, &mut random) };
     Case { name: plan.name(seed), make: Recipe::Laboratory(plan), random }
 }
 

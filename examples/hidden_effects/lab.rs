@@ -48,7 +48,7 @@ pub(crate) struct Plan {
     pub percent: u8,
     pub form: Form,
     /// Whether the damping of the whole structure is stated as structural and is viscous.
-    pub viscous: bool,
+    pub structural: bool,
 }
 
 /// What the project file gives.
@@ -91,18 +91,18 @@ impl Plan {
             x if x < 0.72 && hidden.is_none_or(dissipates) => Form::Points,
             _ => Form::Chain,
         };
-        Self { effect: hidden, percent, form, viscous: false }
+        Self { effect: hidden, percent, form, structural: false }
     }
 
-    /// Whether a loss factor is stated where damping is viscous.
-    fn is_structural(self) -> bool {
+    /// Whether a loss factor is stated where damping is viscous: not without matrices, nor where a law of the whole structure is hidden.
+    fn states_structural(self) -> bool {
         let whole = self.effect.is_some_and(|e| matches!(e.kind(), Kind::Whole(_)));
-        self.viscous && self.form != Form::Points && !whole
+        self.structural && self.form != Form::Points && !whole
     }
 
     pub(crate) fn name(self, seed: u64) -> String {
         let effect = self.effect.map_or("none", Effect::name);
-        let class = if self.viscous { "structural" } else { "lab" };
+        let class = if self.structural { "structural" } else { "lab" };
         format!("{class}{}-{}-{effect}-{seed}", self.percent, self.form.word())
     }
 }
@@ -127,7 +127,7 @@ pub(crate) fn project(plan: Plan, random: &mut Random) -> Option<Written> {
         .map(|(s, f)| truth.mapped(s, &[&[s.parameters[0] * f], &s.parameters[1..]].concat()))
         .map(|s| if s.effect == Effect::LossFactor { viscous_instead_of(&s, &truth) } else { s })
         .collect();
-    if plan.is_structural() {
+    if plan.states_structural() {
         truth.structure = damped_alike(&truth.structure, random);
     }
     let modes = truth.structure.modes().unwrap();
@@ -233,7 +233,7 @@ fn known(plan: Plan, specimen: &Specimen, model: &Structure, random: &mut Random
     let mut known = specimen.known(model, random);
     if plan.effect.is_some_and(|e| matches!(e.kind(), Kind::Whole(_))) {
         known.retain(|s| !matches!(s.effect.kind(), Kind::Whole(_)));
-    } else if plan.is_structural() {
+    } else if plan.states_structural() {
         known = vec![Source::known(Effect::LossFactor, Place::Whole(None), &[random.within(0.006, 0.02)])];
     }
     if let Specimen::Beam(beam) = specimen
