@@ -1,6 +1,7 @@
 //! What the structure is predicted to do: frequency response, periodic steady state, records of it.
 
 pub mod dynamic_stiffness;
+mod equivalent_viscous;
 pub mod frequency_response;
 pub(crate) mod hammer;
 pub mod harmonic_balance;

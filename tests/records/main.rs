@@ -9,3 +9,4 @@ mod diagnose;
 mod measured;
 mod prediction;
 mod spectrum;
+mod structural_damping;

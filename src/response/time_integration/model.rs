@@ -3,8 +3,9 @@
 use super::element::Element;
 use super::propagator::Propagator;
 use crate::effects::{Constant, Kind, Leg, Place, Source};
+use crate::response::equivalent_viscous::equivalent_viscous;
 use crate::response::harmonic_balance::{Excitation, HarmonicForce, Response};
-use crate::structure::{Structure, SystemMatrices};
+use crate::structure::{Structure, StructureError, SystemMatrices};
 use faer::Mat;
 use std::f64::consts::TAU;
 
@@ -62,6 +63,9 @@ pub enum TimeError {
         /// Relative change of the last period.
         change: f64,
     },
+    /// No modes at which structural damping could be taken as viscous.
+    #[error(transparent)]
+    Modes(#[from] StructureError),
     /// The computation was asked to stop.
     #[error(transparent)]
     Cancelled(#[from] crate::control::Cancelled),
@@ -102,6 +106,11 @@ impl TimeModel {
         let period = TAU / excitation.omega;
         if steps < 8 || !(period > 0.0 && period.is_finite()) {
             return Err(TimeError::BadStep { steps, period_s: period });
+        }
+        // In a steady state off resonance structural damping is not the viscous one of the natural frequency.
+        let hysteretic = |s: &Source| s.effect.adds_to(Constant::Hysteretic);
+        if let Some(source_index) = sources.iter().position(hysteretic) {
+            return Err(TimeError::NoTimeDomain { source_index, effect: sources[source_index].effect.name() });
         }
         let driven: Vec<Vec<(usize, f64)>> = excitation.forces.iter().map(|force| vec![(force.dof, 1.0)]).collect();
         let drive = [drive(excitation, steps, true), drive(excitation, steps, false)];
@@ -298,14 +307,15 @@ fn sort(
 ) -> Result<([Mat<f64>; 3], Vec<Element>), TimeError> {
     let n = structure.len();
     let mut linear = [matrices.mass.clone(), Mat::zeros(n, n), matrices.stiffness.clone()];
+    let mut loss = Mat::zeros(n, n);
     let mut elements = Vec::new();
     for (index, source) in sources.iter().enumerate() {
         let refuse = || TimeError::NoTimeDomain { source_index: index, effect: source.effect.name() };
         let target = match source.effect.constant() {
-            Some(Constant::Mass) => 0,
-            Some(Constant::Viscous) => 1,
-            Some(Constant::Stiffness) => 2,
-            Some(Constant::Hysteretic) => return Err(refuse()),
+            Some(Constant::Mass) => &mut linear[0],
+            Some(Constant::Viscous) => &mut linear[1],
+            Some(Constant::Stiffness) => &mut linear[2],
+            Some(Constant::Hysteretic) => &mut loss,
             None => {
                 let Some(law) = source.effect.law() else { continue };
                 if law.is_linear() && law.memory(&source.parameters).is_none() {
@@ -316,8 +326,11 @@ fn sort(
                 continue;
             }
         };
-        add_legs(&mut linear[target], source);
-        add_whole(&mut linear[target], structure, source);
+        add_legs(target, source);
+        add_whole(target, structure, source);
+    }
+    if sources.iter().any(|s| s.effect.adds_to(Constant::Hysteretic)) {
+        linear[1] += equivalent_viscous(matrices, &loss)?;
     }
     Ok((linear, elements))
 }

@@ -6,6 +6,7 @@ use super::reduction::{RESIDUAL_DAMPING, Reduction};
 use super::setup::{TransientParameter, TransientSetup};
 use super::system::Matrices;
 use crate::effects::{Basis, Constant, Effect, Kind, Law, Leg, Place, Source};
+use crate::response::equivalent_viscous;
 use crate::structure::share::Triplets;
 use faer::Mat;
 use std::f64::consts::PI;
@@ -18,7 +19,7 @@ pub(super) type Nonlinear = (usize, Leg, Form, &'static dyn Law, Vec<f64>);
 
 /// Whether a source belongs to the linear part.
 pub(super) fn is_linear(effect: Effect) -> bool {
-    matches!(effect.constant(), Some(Constant::Mass | Constant::Viscous | Constant::Stiffness))
+    effect.constant().is_some()
 }
 
 /// Whether steps of any length are exact for an effect: it belongs to the linear part or is no force.
@@ -26,9 +27,11 @@ pub fn has_exact_steps(effect: Effect) -> bool {
     is_linear(effect) || matches!(effect.kind(), Kind::Channel(_))
 }
 
-/// Whether a law between places has a force in time that can be stepped.
+/// Whether a law between places has a force in time that can be stepped: hysteretic damping has none, but is stepped as viscous
+/// damping of the modes (`response/equivalent_viscous`).
 pub fn has_force_in_time(effect: Effect) -> bool {
-    effect.law().is_some_and(|law| is_linear(effect) || Form::of(law).is_some())
+    let hysteretic = effect.adds_to(Constant::Hysteretic);
+    effect.law().is_some_and(|law| (is_linear(effect) && !hysteretic) || Form::of(law).is_some())
 }
 
 /// The elements of a source that does not belong to the linear part.
@@ -92,6 +95,7 @@ pub(super) fn assemble(
         own.mass[(r, r)] = heavy;
         own.stiffness[(r, r)] = modal_stiffness(setup, reduction, r);
     }
+    let frequencies = own.frequencies();
     let mut changes = add_parts(setup, reduction, &mut own);
     let mut total = own.clone();
     let (mut by_stiffness, mut by_mass) = (Matrices::zeros(size), Matrices::zeros(size));
@@ -99,7 +103,11 @@ pub(super) fn assemble(
     by_mass.mass = own.mass.clone();
     let mut whole = Mat::<f64>::zeros(size, size);
     for (index, source) in setup.sources.iter().enumerate().filter(|(_, s)| is_linear(s.effect)) {
-        let unit = unit_matrix(setup, reduction, source, &own, along);
+        let hysteretic = source.effect.adds_to(Constant::Hysteretic);
+        let mut unit = unit_matrix(setup, reduction, source, &own, along);
+        if hysteretic {
+            unit = equivalent_viscous::in_coordinates(&unit, &frequencies);
+        }
         let mut by = Matrices::zeros(size);
         let (value, scaled) = (source.parameters[0], faer::Scale(source.parameters[0]));
         match source.effect.constant() {
@@ -110,6 +118,11 @@ pub(super) fn assemble(
         if let Kind::Whole(law) = source.effect.kind() {
             let by_basis = if law.basis() == Basis::Stiffness { &mut by_stiffness } else { &mut by_mass };
             by_basis.damping += &by.damping * faer::Scale(value);
+        }
+        if hysteretic {
+            // The natural frequencies by which it is divided go with the roots of stiffness and mass.
+            by_stiffness.damping -= &by.damping * faer::Scale(0.5 * value);
+            by_mass.damping += &by.damping * faer::Scale(0.5 * value);
         }
         if source.place == Place::Whole(None) {
             whole += &by.damping * faer::Scale(value);

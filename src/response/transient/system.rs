@@ -28,6 +28,12 @@ impl Matrices {
         let zeros = Mat::zeros(size, size);
         Self { mass: zeros.clone(), damping: zeros.clone(), stiffness: zeros }
     }
+
+    /// Natural frequency of each coordinate by itself, rad/s.
+    pub(super) fn frequencies(&self) -> Vec<f64> {
+        let square = |r: usize| self.stiffness[(r, r)] / self.mass[(r, r)];
+        (0..self.mass.nrows()).map(|r| square(r).max(0.0).sqrt()).collect()
+    }
 }
 
 /// A linear functional of the state: what a sensor or an element sees.
