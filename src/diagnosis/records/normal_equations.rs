@@ -56,11 +56,12 @@ impl FitProblem<'_> {
             normal.left.count += part.left.iter().map(Vec::len).sum::<usize>();
             normal.left.residual.push(part.left);
         }
-        for (k, value, deviation) in self.priors(at) {
+        let priors = self.priors(at);
+        normal.left.prior = self.prior_cost(at, &priors);
+        for (k, value, deviation) in priors {
             let weight = unit * deviation.powi(-2);
             normal.matrix[(k, k)] += weight;
             normal.gradient[k] -= weight * value;
-            normal.left.prior += (value / deviation).powi(2);
         }
         // What is held moves nowhere.
         let laws = self.first_correction(at);
@@ -102,7 +103,7 @@ impl FitProblem<'_> {
             left.count += list.iter().map(Vec::len).sum::<usize>();
             left.residual.push(list);
         }
-        left.prior = self.priors(at).into_iter().map(|(_, value, deviation)| (value / deviation).powi(2)).sum();
+        left.prior = self.prior_cost(at, &self.priors(at));
         Ok(left)
     }
 

@@ -15,6 +15,8 @@ use crate::response::transient::TransientParameter;
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source or the damping of a mode, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
 const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
+/// Degrees of freedom of the distribution of damping below what is stated: that of the two or three laws of damping that are in use.
+const TAIL: f64 = 3.0;
 /// Largest change of a logarithm in one step.
 const REACH: f64 = 1.0;
 
@@ -69,11 +71,30 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
     let count = fit.shapes.iter().map(Vec::len).sum::<usize>().max(1) as f64;
     square(&[fit.stiffness], PRIORS[0])
         + square(&fit.known, PRIORS[1])
-        + square(&fit.damping, PRIORS[1])
+        + fit.damping.iter().map(|v| cost_of_damping(*v)).sum::<f64>()
         + square(&fit.modes, PRIORS[3])
         + square(&[fit.mass], PRIORS[4])
         + square(&fit.parts, 1.0)
         + shapes / count
+}
+
+/// What the prior takes for the logarithm of a factor on the damping of a mode:
+///
+/// ```text
+/// (v / s)^2 for v > 0,     k ln(1 + v^2 / (k s^2)) for v < 0,     s = 0.15, k = 3
+/// ```
+///
+/// Damping beyond what is stated is what a missing effect takes out, and is believed as far as damping is known. Damping below it is no
+/// missing effect, for none puts energy in: there the stated law is wrong in kind, as one in proportion to stiffness is at high modes by
+/// several times, so that the tail is that of Student's distribution (Gelman et al. 2013, Bayesian Data Analysis, section 17.2).
+pub(super) fn cost_of_damping(v: f64) -> f64 {
+    let square = (v / PRIORS[1]).powi(2);
+    if v < 0.0 { TAIL * (square / TAIL).ln_1p() } else { square }
+}
+
+/// The deviation of a normal distribution of the same slope.
+fn damping_deviation(v: f64) -> f64 {
+    if v < 0.0 { PRIORS[1].hypot(v / TAIL.sqrt()) } else { PRIORS[1] }
 }
 
 /// A fit without the corrections that are no more than their priors allow: nobody was asked what else they stand for.
@@ -91,9 +112,10 @@ pub(super) fn beyond_priors(fit: &FittedRecords) -> FittedRecords {
     }
 }
 
-/// Whether a known source or the damping of a mode is off by more than is believed without looking for an effect: then it stands for something else.
+/// Whether a known source is off, or a mode damped more than stated, by more than is believed without looking for an effect: then it stands
+/// for something else.
 pub(super) fn is_strained(fit: &FittedRecords) -> bool {
-    fit.known.iter().any(|v| v.abs() > LIKELY_SIZE) || fit.damping.iter().any(|v| v.abs() > LIKELY_MODE_DAMPING)
+    fit.known.iter().any(|v| v.abs() > LIKELY_SIZE) || fit.damping.iter().any(|v| *v > LIKELY_MODE_DAMPING)
 }
 
 /// A fit to the first part of every record.
@@ -271,6 +293,16 @@ impl FitProblem<'_> {
         if parts.any(|free| *free) && self.records.structure.supports().is_empty() { MODE } else { alone }
     }
 
+    /// What the priors take for the corrections that are free, with their [`Self::priors`].
+    pub(super) fn prior_cost(&self, at: &FittedRecords, priors: &[(usize, f64, f64)]) -> f64 {
+        let first = self.first_correction(at) + 1 + at.known.len();
+        let damping = first..first + at.damping.len();
+        let cost = |(k, value, deviation): &(usize, f64, f64)| {
+            if damping.contains(k) { cost_of_damping(*value) } else { (value / deviation).powi(2) }
+        };
+        priors.iter().map(cost).sum()
+    }
+
     /// Corrections with their prior deviations: number of the variable, value, deviation.
     pub(super) fn priors(&self, at: &FittedRecords) -> Vec<(usize, f64, f64)> {
         let laws = self.first_correction(at);
@@ -278,8 +310,9 @@ impl FitProblem<'_> {
         if !self.free.corrections.is_empty() {
             let mode = self.beside_parts(PRIORS[3]);
             list.push((laws, at.stiffness, PRIORS[0]));
-            let sizes = at.known.iter().chain(&at.damping).enumerate();
-            list.extend(sizes.map(|(j, v)| (laws + 1 + j, *v, PRIORS[1])));
+            let known = at.known.iter().map(|v| (*v, PRIORS[1]));
+            let sizes = known.chain(at.damping.iter().map(|v| (*v, damping_deviation(*v)))).enumerate();
+            list.extend(sizes.map(|(j, (v, deviation))| (laws + 1 + j, v, deviation)));
             let first = laws + 1 + self.records.sizes();
             list.extend((0..modes(self.records)).map(|r| (first + r, at.modes[r], mode)));
             let mass = self.mass_variable(at);
@@ -314,6 +347,19 @@ mod tests {
     use super::*;
     use crate::common::models::oscillator;
     use crate::common::runs::decay;
+
+    /// The normal equations take the slope of the cost of damping: by central differences.
+    #[test]
+    fn damping_below_what_is_stated_costs_little() {
+        for v in [-3.0, -0.4, -0.05, 0.05, 0.4] {
+            let slope = (cost_of_damping(v + 1e-6) - cost_of_damping(v - 1e-6)) / 2e-6;
+            let normal = 2.0 * v / damping_deviation(v).powi(2);
+            assert!((slope / normal - 1.0).abs() < 1e-6, "{v}: {slope} and {normal}");
+        }
+        assert!((cost_of_damping(0.3) - 4.0).abs() < 1e-12);
+        // A fifth of what is stated; five times would cost 115.
+        assert!((cost_of_damping(-1.609) - 11.0).abs() < 0.2, "{}", cost_of_damping(-1.609));
+    }
 
     /// Parts of two records of one oscillator, the second 0.3 % stiffer: the parts of a record have one shift, which tells the two apart.
     #[test]

@@ -31,8 +31,10 @@ const MOST_PAIRS: usize = 12;
 const PLACES: usize = 9;
 /// Share of a column beside the nuisances below which they are taken out one by one: differences of squares round there.
 const ALMOST_ALL: f64 = 1e-6;
-/// Largest relative change of a nuisance.
+/// Largest relative change of a nuisance; of the damping of a mode that which leaves least of it, for a law in proportion to stiffness states
+/// that of high modes many times too large, and a fit that begins there sees nothing of a mode that rings.
 const MOST_CHANGE: f64 = 0.15;
+const LEAST_DAMPING: f64 = -0.97;
 
 /// A law at a place with the coefficient that fits best.
 #[derive(Debug, Clone, PartialEq)]
@@ -168,17 +170,18 @@ impl<'a> Regression<'a> {
         let matrix = Mat::from_fn(count, count, |i, j| dot(column(i), column(j)));
         let rhs = Mat::from_fn(count, 1, |i, _| dot(column(i), &left));
         let solved = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
-        let value = |i: usize| (solved[(i, 0)] * self.columns[i].1).clamp(-MOST_CHANGE, MOST_CHANGE);
-        let of_modes = |count: usize, first: usize| {
+        let within = |i: usize, least: f64| (solved[(i, 0)] * self.columns[i].1).clamp(least, MOST_CHANGE);
+        let value = |i: usize| within(i, -MOST_CHANGE);
+        let of_modes = |count: usize, first: usize, least: f64| {
             let mut list = vec![0.0; count];
             for (r, mode) in band.iter().enumerate().filter(|(_, mode)| **mode < count) {
-                list[*mode] = value(first + r);
+                list[*mode] = within(first + r, least);
             }
             list
         };
         let known = band.len()..band.len() + self.records.known.len();
-        let damping = of_modes(self.records.damped(), known.end);
-        Some([of_modes(self.records.kept, 0), known.map(value).collect(), damping])
+        let damping = of_modes(self.records.damped(), known.end, LEAST_DAMPING);
+        Some([of_modes(self.records.kept, 0, -MOST_CHANGE), known.map(value).collect(), damping])
     }
 
     /// `fit` with the stiffness of its modes and the sizes of known sources that the equation of motion along the measured motion

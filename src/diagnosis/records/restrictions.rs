@@ -70,12 +70,13 @@ impl<'a> Restrictions<'a> {
         let mut change = vec![0.0; self.normal.gradient.len()];
         let values = self.corrections();
         held.iter().filter_map(|k| Some((k, values.get(k.checked_sub(first)?)?))).for_each(|(k, v)| change[*k] = -v);
-        let (mut matrix, mut gradient, mut prior) = (self.normal.matrix.clone(), self.normal.gradient.clone(), 0.0);
-        for (k, value, deviation) in problem.priors(fit) {
+        let (mut matrix, mut gradient) = (self.normal.matrix.clone(), self.normal.gradient.clone());
+        let priors = problem.priors(fit);
+        let prior = unit * problem.prior_cost(fit, &priors);
+        for (k, value, deviation) in priors {
             let weight = unit * deviation.powi(-2);
             matrix[(k, k)] += weight;
             gradient[k] -= weight * value;
-            prior += weight * value * value;
         }
         let (more, variance) = least(&matrix, &gradient, &moving, &mut change).filter(|(more, _)| more.is_finite())?;
         let count = free.iter().filter(|free| **free).count();
