@@ -1,6 +1,6 @@
 //! Hidden effects in decays and hammers, their records made by the independent stepping of the whole structure.
 
-use crate::common::models::short_cantilever;
+use crate::common::models::{short_cantilever, whole};
 use dashpot::control::Control;
 use dashpot::diagnosis::records::{Records, compare_records, diagnose_records, missing_force};
 use dashpot::diagnosis::result::{Added, Diagnosis, Step, Verdict};
@@ -8,7 +8,6 @@ use dashpot::diagnosis::updating::parameters::UpdatingParameter;
 use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::measurement::transient_run::TransientLabel;
 use dashpot::measurement::{Channel, Flag, Kind, Quantity, Record, TransientRun};
-use dashpot::response::harmonic_balance::Excitation;
 use dashpot::response::time_integration::TimeModel;
 use dashpot::structure::{Part, Structure};
 use rand::{RngExt, SeedableRng};
@@ -26,9 +25,7 @@ fn decay(structure: &Structure, truth: &[Source], samples: usize, seed: u64) -> 
 
 /// The same from the shapes of several modes, each so many metres at the tip.
 fn decay_of(structure: &Structure, truth: &[Source], tips: &[f64], (samples, seed): (usize, u64)) -> TransientRun {
-    let period = STEP * 8.0;
-    let excitation = Excitation { omega: std::f64::consts::TAU / period, forces: Vec::new() };
-    let mut model = TimeModel::new(structure, truth, &excitation, 8 * FINE).unwrap();
+    let mut model = TimeModel::under_force(structure, truth, None, STEP / FINE as f64).unwrap();
     let modes = structure.modes().unwrap();
     let n = structure.len();
     let part = |r: usize, dof: usize| tips[r] * modes.shapes[(dof, r)] / modes.shapes[(n - 2, r)];
@@ -270,4 +267,20 @@ fn the_missing_force_of_a_decay_is_that_of_its_law() {
         left / (all().count() as f64) < (4.0 * deviation).powi(2).max(0.01 * size / all().count() as f64),
         "{deviation}"
     );
+}
+
+/// A beam of 2 % less stiffness and half the loss factor that its model states: both are told, and no effect.
+#[test]
+fn a_loss_factor_that_is_off_is_corrected() {
+    let specimen = short_cantilever(4).with_factors(&[(Part::Stiffness, 0.98)]);
+    let project = Project::of_three_modes(&specimen, vec![whole(Effect::LossFactor, 0.02)]);
+    let project = Project { known: vec![whole(Effect::LossFactor, 0.04)], ..project };
+    let diagnosis = project.diagnosed(&Control::unattended());
+    assert_eq!(diagnosis.verdict, Verdict::Detuned, "{diagnosis:?}");
+    let factor = |wanted: UpdatingParameter| {
+        let correction = diagnosis.corrections.iter().find(|c| c.parameter == wanted);
+        correction.unwrap_or_else(|| panic!("{diagnosis:?}")).factor
+    };
+    let [loss, stiffness] = [UpdatingParameter::Known(0), UpdatingParameter::Structure(Part::Stiffness)].map(factor);
+    assert!((loss - 0.5).abs() < 0.02 && (stiffness - 0.98).abs() < 0.002, "{loss} {stiffness}");
 }

@@ -16,21 +16,19 @@ use crate::structure::Part;
 /// Error of the stated fit from which on the phase may be lost over the whole record, and the share of it that parts of the record
 /// leave at most where it is.
 const PHASE_LOST: [f64; 2] = [0.08, 0.7];
-
 /// Share of the predicted error that is left at most, errors of the test taken out, where they are stated: they make half of its square.
 const OF_THE_TEST: f64 = 0.7;
-
 /// Predicted error with corrected parts over that without from which on they are stated.
 const BETTER: f64 = 0.8;
-
 /// Rounds and steps of a fit beside a part that was corrected.
 const REFITTING: [usize; 2] = [2, 4];
-
 /// Probability up to which a suggestion is stated as its fit stands, without what it predicts.
 const UNLIKELY: f64 = 1e-3;
-
 /// Probability of a suggestion from which on a test that would tell it from the first is named.
 const OPEN: f64 = 0.05;
+/// Misfit of the corrections that a project can state over that at which a model agrees, from which on the model is not explained by
+/// them, whatever it leaves where errors of the test are free: twice the noise.
+const STATED: f64 = 4.0;
 
 impl Search<'_> {
     /// Fills `diagnosis` with what was found; masses and springs that leave no less than corrections of the model do are none, where
@@ -163,7 +161,7 @@ impl Search<'_> {
         if stated.effects.is_empty() {
             diagnosis.suggestions.clear();
             diagnosis.verdict = match left {
-                left if left > self.records.agreement(AGREES) => Verdict::Unexplained,
+                left if left.max(misfit(stated) / STATED) > self.records.agreement(AGREES) => Verdict::Unexplained,
                 _ if diagnosis.corrections.is_empty() => Verdict::Adequate,
                 _ => Verdict::Detuned,
             };

@@ -133,6 +133,12 @@ impl Search<'_> {
             let start = self.carried(&without, level, whole)?;
             by_size = SetsBySize { earlier: Vec::new(), last: vec![self.fit(whole, &start, 1.0, WITHOUT)?] };
         }
+        if let Some(best) = by_size.last.first().filter(|f| !f.effects.is_empty() && !self.control.is_late())
+            && let Some(alone) = self.corrections_alone(best)?
+            && !self.is_better(whole, best, &alone)?
+        {
+            by_size = SetsBySize { earlier: Vec::new(), last: vec![alone] };
+        }
         if let Some(corrected) = by_size.last.first().filter(|f| f.effects.is_empty()).cloned() {
             let single = self.single_changes(&corrected)?;
             if !single.is_empty() {

@@ -10,6 +10,7 @@ mod chord_steps;
 mod coarse_steps;
 pub(crate) mod compare;
 mod conclusion;
+mod corrections_alone;
 pub(crate) mod data;
 mod decays;
 pub(crate) mod diagnose;
