@@ -93,8 +93,13 @@ impl Search<'_> {
         let own = test.gain(law).unwrap_or(0.0);
         let most = (NEAR - 1.0) * fit.chi_square.max(fit.count as f64);
         let near = |s: &Scored| own - s.gain < most;
+        // Where noise is low no shape of the grid is near; a law that contains the one that fits has it in reach all the same.
+        let contains = |s: &Scored| s.source.effect.contains(law.effect);
         // The best shape of every law before the second of any: laws of one kin would leave no room for others.
-        let ranked = shapes.flat_map(|list| list.into_iter().filter(near).take(BEGUN).enumerate());
+        let ranked = shapes.flat_map(|list| {
+            let numbered = list.into_iter().enumerate().take(BEGUN);
+            numbered.filter(|(k, s)| near(s) || (*k == 0 && contains(s))).collect::<Vec<_>>()
+        });
         let mut few: Vec<(usize, Scored)> = ranked.collect();
         few.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.gain.total_cmp(&a.1.gain)));
         few.truncate(BEGUN_OF_ALL);

@@ -13,8 +13,8 @@ const MOST_OF_FAMILY: usize = 2;
 /// (looked-at seed 3504) the neighbours were 315 and more behind on parts, and thousands on the whole records.
 const FAR: f64 = 240.0;
 
-/// The first `count` of some fits, best first; of laws of one family at a place, and of one law, the first [`MOST_OF_FAMILY`] only, as
-/// long as there are others.
+/// The first `count` of some fits, best first, and that which leaves least; of laws of one family at a place, and of one law, the first
+/// [`MOST_OF_FAMILY`] only, as long as there are others. On short segments the evidence is with the plainer law.
 pub(super) fn diverse(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
     let mut taken: Vec<usize> = Vec::new();
     for (k, rival) in rivals.iter().enumerate() {
@@ -27,6 +27,8 @@ pub(super) fn diverse(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecor
     }
     let others: Vec<usize> = (0..rivals.len()).filter(|k| !taken.contains(k)).collect();
     taken.extend(others.into_iter().take(count - taken.len().min(count)));
+    let least = (0..rivals.len()).min_by(|&a, &b| rivals[a].chi_square.total_cmp(&rivals[b].chi_square));
+    taken.extend(least.filter(|k| !taken.contains(k)));
     taken.sort_unstable();
     taken.into_iter().map(|k| rivals[k].clone()).collect()
 }
