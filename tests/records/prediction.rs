@@ -3,6 +3,7 @@
 use crate::common::models::{oscillator, short_cantilever, source};
 use dashpot::effects::{Effect, Source};
 use dashpot::measurement::{Channel, Quantity};
+use dashpot::response::time_integration::TimeModel;
 use dashpot::response::transient::{
     SampledForces, StepLength, TransientModel, TransientParameter, TransientResponse, TransientSetup, has_exact_steps,
 };
@@ -224,6 +225,7 @@ fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
         (Effect::Viscous, vec![0.4]),
         (Effect::Mass, vec![0.02]),
         (Effect::Stiffness, vec![300.0]),
+        (Effect::Hysteretic, vec![200.0]),
     ]
 }
 
@@ -420,5 +422,47 @@ fn friction_that_holds_does_not_ring() {
     for told_step in [1.0, 1e-6] {
         let apart = off(&case(1, told_step).run(&[]));
         assert!(apart < 0.7, "{told_step}: {apart:.2}");
+    }
+}
+
+/// A slider and smooth hysteresis in an oscillator that was released, and whose record begins in the midst of its motion: the force there is
+/// that of the loop, not that of the first loading. Against fine steps from the release on.
+#[test]
+fn hysteresis_remembers_the_motion_before_a_record_that_was_cut() {
+    let (structure, step, fine) = (oscillator(1.0, 400.0), 4e-3, 200);
+    for law in [source(Effect::ElasticSlider, &[0], &[60.0, 0.15]), source(Effect::BoucWen, &[0], &[60.0, 0.2, 2.0])] {
+        let mut model =
+            TimeModel::under_force(&structure, std::slice::from_ref(&law), None, step / fine as f64).unwrap();
+        model.start(&[0.01], &[0.0]);
+        // The displacement has passed zero on its way down, where the slider slides.
+        let (cut, samples) = (95, 400);
+        let mut path = Vec::new();
+        let mut initial = Vec::new();
+        for n in 0..cut + samples {
+            if n == cut {
+                initial = vec![model.displacement(0), model.velocity(0) / 20.0];
+            }
+            if n >= cut {
+                path.push(model.displacement(0));
+            }
+            model.run(fine).unwrap();
+        }
+        let case = Case {
+            structure: structure.clone(),
+            sources: vec![law],
+            channels: channels(&[(Quantity::Displacement, 0)]),
+            drives: vec![],
+            kept: 1,
+            forces: quiet(step, samples, 8),
+            initial,
+            factors: [1.0; 2],
+            shape_errors: vec![],
+            parts: vec![],
+            directions: vec![],
+            told_step: 1.0,
+        };
+        let found = &case.run(&[]).channels[0];
+        let off: Vec<f64> = found.iter().zip(&path).map(|(a, b)| a - b).collect();
+        assert!(size(&off) < 0.01 * size(&path), "{:.1e}", size(&off) / size(&path));
     }
 }

@@ -31,6 +31,11 @@ pub(super) enum Form {
 }
 
 impl Form {
+    /// Whether the force depends on the motion before.
+    pub(super) fn has_memory(self) -> bool {
+        matches!(self, Self::Masing | Self::Maxwell | Self::Internal)
+    }
+
     /// Of a law; `None` where it has no force in time that can be stepped here.
     pub(super) fn of(law: &dyn Law) -> Option<Self> {
         let typical: Vec<f64> = law.parameters().iter().map(|p| p.typical).collect();

@@ -15,6 +15,7 @@ use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
 use super::hold::{Polynomial, shifted, value};
+use super::initial_memory::earlier_views;
 use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
 use super::view::{Piece, Receptance, Sensitivity, View};
@@ -71,8 +72,14 @@ impl<'a> March<'a> {
         let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
         let mut derivatives = Derivatives::new(&elements, &sensitivities, changes, z.len());
         for (l, (element, view)) in elements.iter_mut().zip(views).enumerate() {
-            // A law with memory comes from rest to where the record begins.
-            derivatives.commit(l, (element, view), dot(&view.displacement, &z), f64::INFINITY);
+            if !element.form.has_memory() {
+                continue;
+            }
+            let (earlier, step) = earlier_views(system, view, &z);
+            for (n, view) in earlier.iter().chain([view]).enumerate() {
+                let step = if n == 0 { f64::INFINITY } else { step };
+                derivatives.commit(l, (element, view), dot(&view.displacement, &z), step);
+            }
         }
         let forces = vec![0.0; elements.len()];
         Self { system, views, elements, z, derivatives, side, forces, step, receptance, trial: Trial::default() }

@@ -17,6 +17,7 @@ mod element;
 mod error;
 mod exponentials;
 mod hold;
+mod initial_memory;
 mod march;
 mod model;
 mod perturbation;
