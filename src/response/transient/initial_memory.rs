@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 /// Instants of the period.
 const INSTANTS: usize = 48;
-/// Speed at the start over the greatest of the period up to which a motion that is at its end, within this share, begins at rest.
+/// Speeds of the modes at the start over their amplitudes, summed, up to which a motion begins at rest, all modes at their ends.
 const AT_REST: f64 = 0.1;
 
 /// What the law sees of the present state `z` at instants before it, in their order, with the time between them, s; none of a motion that
@@ -28,33 +28,28 @@ pub(super) fn earlier_views(system: &LinearSystem, view: &View, z: &[f64]) -> (V
     let Some(strongest) = swings.max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
         return (Vec::new(), f64::INFINITY);
     };
-    let step = TAU / system.lambda[strongest].im / INSTANTS as f64;
-    let earlier = |n: usize| turned(system, view, step * (INSTANTS - n) as f64);
-    let views: Vec<View> = (0..INSTANTS).map(earlier).collect();
-    let greatest = |row: &dyn Fn(&View) -> f64| views.iter().map(|view| row(view).abs()).fold(0.0, f64::max);
-    let (displacement, velocity) = (|v: &View| dot(&v.displacement, z), |v: &View| dot(&v.velocity, z));
-    let rests = velocity(view).abs() < AT_REST * greatest(&velocity);
-    if rests && displacement(view).abs() > (1.0 - AT_REST) * greatest(&displacement) {
+    let [mut speeds, mut amplitudes] = [0.0; 2];
+    for k in 0..count {
+        let (row, state) = ([view.velocity[k], view.velocity[count + k]], [z[k], z[count + k]]);
+        speeds += dot(&row, &state).abs();
+        amplitudes += row[0].hypot(row[1]) * state[0].hypot(state[1]);
+    }
+    if speeds < AT_REST * amplitudes {
         return (Vec::new(), f64::INFINITY);
     }
-    (views, step)
+    let step = TAU / system.lambda[strongest].im / INSTANTS as f64;
+    let earlier = |n: usize| turned(system, view, step * (INSTANTS - n) as f64);
+    ((0..INSTANTS).map(earlier).collect(), step)
 }
 
-/// What is seen of a state, as seen from `time` s later on.
+/// The displacement that is seen of a state `time` s before it.
 fn turned(system: &LinearSystem, view: &View, time: f64) -> View {
     let count = system.lambda.len();
-    let turn = |row: &[f64]| {
-        let mut turned = row.to_vec();
-        for k in 0..count {
-            let (sin, cos) = (system.lambda[k].im * time).sin_cos();
-            let (a, b) = (row[k], row[count + k]);
-            (turned[k], turned[count + k]) = (a * cos - b * sin, a * sin + b * cos);
-        }
-        turned
-    };
-    View {
-        displacement: turn(&view.displacement),
-        velocity: turn(&view.velocity),
-        acceleration: view.acceleration.clone(),
+    let mut displacement = view.displacement.clone();
+    for k in 0..count {
+        let (sin, cos) = (system.lambda[k].im * time).sin_cos();
+        let (a, b) = (displacement[k], displacement[count + k]);
+        (displacement[k], displacement[count + k]) = (a * cos - b * sin, a * sin + b * cos);
     }
+    View { displacement, velocity: view.velocity.clone(), acceleration: view.acceleration.clone() }
 }
