@@ -94,8 +94,7 @@ mod tests {
         assert_eq!(stiffness(Effect::CubicStiffness, &[3.0]), None);
     }
 
-    /// The dashpot of an oscillator whose damping a law of the whole structure states becomes part of that: `c / m` of `alpha`. With one
-    /// mode its size is that of the law, and there is no correction of the mode.
+    /// A Maxwell element becomes stiffness of the mode; a spring is left to the search for single changes.
     #[test]
     fn a_spring_in_series_with_a_dashpot_becomes_stiffness_of_the_mode() {
         let structure = oscillator(2.0, 800.0);

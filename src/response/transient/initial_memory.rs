@@ -6,8 +6,8 @@
 //! ```
 //!
 //! the law is led from rest along that motion. After a full turn between the same ends, hysteresis has forgotten what was before (Madelung's
-//! rules), and a spring in series with a dashpot has relaxed towards its cycle. A record that begins at rest aside, as one of a release does,
-//! begins on the first loading curve.
+//! rules), and a spring in series with a dashpot has relaxed towards its cycle. A record that begins with all modes at rest, as that of a
+//! release does, begins on the first loading curve. Derivatives follow the states, not the frequencies of that period.
 
 use super::system::LinearSystem;
 use super::view::View;
