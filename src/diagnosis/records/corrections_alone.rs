@@ -75,7 +75,7 @@ fn equivalent_stiffness(law: &dyn Law, parameters: &[f64], omega: f64) -> Option
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::common::models::{oscillator, source};
+    use crate::common::models::{chain, oscillator, source, whole};
     use crate::common::runs::decay;
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
@@ -92,6 +92,27 @@ mod tests {
         assert!(asymmetric[0] == 0.0 && (asymmetric[1] - 60.0).abs() < 1e-9, "{asymmetric:?}");
         assert_eq!(stiffness(Effect::Coulomb, &[3.0]), None);
         assert_eq!(stiffness(Effect::CubicStiffness, &[3.0]), None);
+    }
+
+    /// A dashpot adds `c p_r^2` to the `alpha` that mass-proportional damping gives every mode.
+    #[test]
+    fn a_dashpot_becomes_damping_of_the_modes() {
+        let structure = chain(&[2.0, 1.0], &[800.0, 0.0], &[1500.0]);
+        let modes = structure.modes().unwrap();
+        let swing = |n: usize, r: usize| (-2e-3 * n as f64).exp() * (5e-3 * modes.omega[r] * n as f64).cos();
+        let wave = |n: usize, dof: usize| (0..2).map(|r| 1e-2 * modes.shapes[(dof, r)] * swing(n, r)).sum();
+        let run = decay(5e-3, (0..2).map(|dof| (0..2000).map(|n| wave(n, dof)).collect()).collect());
+        let known = [whole(Effect::MassProportional, 0.5)];
+        let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let fit = FittedRecords::start(&records, &[source(Effect::Viscous, &[1], &[0.3])]);
+        let start = search.absorbed(&fit).unwrap();
+        assert_eq!(start.damping.len(), 2);
+        for r in 0..2 {
+            let factor = 1.0 + 0.3 * modes.shapes[(1, r)].powi(2) / 0.5;
+            assert!((start.damping[r].exp() / factor - 1.0).abs() < 1e-9 && start.modes[r] == 0.0, "{r}: {factor}");
+        }
     }
 
     /// A Maxwell element becomes stiffness of the mode; a spring is left to the search for single changes.

@@ -137,6 +137,10 @@ mod tests {
         (0..).zip(&mut rivals).for_each(|(dof, rival)| rival.effects[0].place = Place::Dofs(vec![dof]));
         rivals.push(fit(Effect::Power, 2.0));
         assert!(laws(diverse(&rivals, 3)).contains(&Effect::Power));
+        // The one that leaves least is beside the plainer ones that are before it.
+        let kin = [(Effect::ElasticSlider, 3.0), (Effect::Dahl, 2.5), (Effect::BoucWen, 1.0)];
+        let kin: Vec<FittedRecords> = kin.into_iter().map(|(law, left)| fit(law, left)).collect();
+        assert_eq!(laws(diverse(&kin, 2)).last(), Some(&Effect::BoucWen));
         // Where there is nothing else all of one family are.
         rivals.pop();
         assert_eq!(laws(diverse(&rivals, 4)).len(), 4);

@@ -93,7 +93,7 @@ impl Derivatives {
 
     /// Tells element `l`, which sees `view`, that it has come to `d` in a step of `step` s.
     pub(super) fn commit(&mut self, l: usize, (element, view): (&mut Element, &View), d: f64, step: f64) {
-        if element.form == Form::Smooth || element.form == Form::Friction {
+        if !element.form.has_memory() {
             return;
         }
         combine_rows(&view.displacement, &self.states, &mut self.row);
