@@ -1,22 +1,23 @@
 //! The loops of a component: displacement, velocity and acceleration that are imposed, the force that is measured.
 
 use crate::control::Cancelled;
-use crate::effects::{Constant, Kind as EffectKind, Range, Source, State};
+use crate::effects::{self, Constant, Kind as EffectKind, Source, State};
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::root_mean_square;
 use crate::measurement::{Quantity, TransientRun};
 use crate::structure::Structure;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
+use imposed_motion::{Band, derivatives};
 use std::f64::consts::TAU;
+use std::ops::Range;
+
+mod imposed_motion;
 
 /// Samples a period that are compared; laws with memory see the motion as finely.
 const PER_PERIOD: f64 = 120.0;
-/// Least and greatest half width, in periods, of the polynomial by which the displacement is differentiated, and the share of
-/// the amplitude that its noise may have behind it: a stiff spring makes a force of every bit of it.
-const SMOOTH: [f64; 2] = [0.008, 0.03];
-const STILL: f64 = 5e-4;
+/// Half width, in periods, of the polynomial by which the displacement is differentiated.
+const SMOOTH: f64 = 0.008;
+/// Speed over the largest below which a machine that has not started yet, or has stopped, rests.
+const AT_REST: f64 = 0.01;
 
 /// Why the loops of a component cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -59,10 +60,28 @@ pub struct Loop {
     pub force: Vec<f64>,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// What noise like that of the displacement leaves of displacement, velocity and acceleration (m, m/s, m/s^2): one draw of it.
-    pub jitter: [Vec<f64>; 3],
+    /// What laws see of the motion, with what noise like that of the displacement leaves of it.
+    path: Vec<Node>,
+    /// Samples of the path before the first that is compared.
+    led: usize,
+    /// What such noise leaves of displacement, velocity and acceleration (m, m/s, m/s^2) at the samples: one draw of it.
+    jitter: [Vec<f64>; 3],
     /// Frequency of the largest line of the displacement, Hz.
     pub frequency_hz: f64,
+}
+
+/// A sample of the motion at which laws are evaluated. Where the motion turns, a force may jump between two samples that are compared:
+/// there every measured sample is one, and the law's forces are averaged as the measured ones are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Node {
+    /// Number of the sample whose force it is part of, from the beginning of the motion.
+    sample: usize,
+    /// Time since the node before, s.
+    step: f64,
+    /// Displacement (m) and velocity (m/s).
+    motion: [f64; 2],
+    /// What noise leaves of both.
+    jitter: [f64; 2],
 }
 
 /// All records of a component.
@@ -99,11 +118,11 @@ impl Loops {
     }
 
     /// Range of the motion over all records.
-    pub fn range(&self) -> Range {
+    pub fn range(&self) -> effects::Range {
         let most = |x: &[f64]| x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let sizes: Vec<f64> = self.list.iter().map(|l| most(&l.d)).collect();
         let logs: f64 = self.list.iter().map(|l| (TAU * l.frequency_hz).ln()).sum();
-        Range {
+        effects::Range {
             displacement: sizes.iter().fold(0.0, |m, s| f64::max(m, *s)),
             least: sizes.iter().fold(f64::INFINITY, |m, s| f64::min(m, *s)),
             velocity: self.list.iter().map(|l| most(&l.v)).fold(0.0, f64::max),
@@ -134,14 +153,22 @@ impl Loop {
         };
         let period = 1.0 / (peak.frequency_hz * step);
         let every = ((period / PER_PERIOD) as usize).max(1);
-        let [least, most] = SMOOTH.map(|share| ((share * period).round() as usize).max(2).max(every / 2));
-        // The middle of a parabola through 2 h + 1 samples has 9 / 4 of the variance of their mean.
-        let needed = 9.0 / 8.0 * (noise(d) / (STILL * peak.amplitude)).powi(2);
-        let half = (needed.min(1e9) as usize).clamp(least, most.max(least));
-        let numbers: Vec<usize> = (half..d.len().saturating_sub(half)).step_by(every).collect();
-        let fits = |d: &[f64]| numbers.iter().map(|&n| cubic(&d[n - half..=n + half], step)).collect::<Vec<[f64; 3]>>();
-        let motion = |fits: &[[f64; 3]]| [0, 1, 2].map(|k| fits.iter().map(|f| f[k]).collect::<Vec<f64>>());
-        let ([d, v, a], jitter) = (motion(&fits(d)), motion(&fits(&drawn(noise(d), d.len()))));
+        let half = ((SMOOTH * period).round() as usize).max(2).max(every / 2);
+        let band = Band::of(d, step, peak.frequency_hz);
+        let [measured, drawn] =
+            [band.filtered(d, step), band.drawn_noise(d.len(), step)].map(|d| derivatives(&d, step, half));
+        let moving = moving_part(&measured);
+        let numbers: Vec<usize> = (moving.start + half..moving.end + half).step_by(every).collect();
+        let path = path(&numbers, [&measured, &drawn], [half, every / 2], step);
+        // How the motion went on beyond the ends of the record is not known to the filter.
+        let edge = (1.0 / (band.highest_hz * step)) as usize;
+        let led = numbers.iter().take_while(|n| **n < edge).count();
+        let numbers: Vec<usize> = numbers.into_iter().skip(led).filter(|n| n + edge < d.len()).collect();
+        if numbers.is_empty() {
+            return Err(ComponentError::NoMotion { file });
+        }
+        let at_numbers = |motion: &[[f64; 3]]| [0, 1, 2].map(|k| numbers.iter().map(|n| motion[n - half][k]).collect());
+        let ([d, v, a], jitter) = (at_numbers(&measured), at_numbers(&drawn));
         let averaged = |n: &usize| {
             let part = &force[n - every / 2..=n + every / 2];
             part.iter().sum::<f64>() / part.len() as f64
@@ -151,11 +178,13 @@ impl Loop {
             index,
             file,
             channel: run.channels()[pushed].to_string(),
-            first_s: run.time()[0] + half as f64 * step,
+            first_s: run.time()[0] + numbers[0] as f64 * step,
             step: every as f64 * step,
             d,
             v,
             a,
+            path,
+            led,
             jitter,
             noise: noise(force) / (every as f64).sqrt(),
             force: forces,
@@ -166,7 +195,9 @@ impl Loop {
     /// The same record with one more draw of the noise of its displacement.
     pub(crate) fn jittered(&self) -> Self {
         let moved = |x: &[f64], k: usize| x.iter().zip(&self.jitter[k]).map(|(x, e)| x + e).collect();
-        Self { d: moved(&self.d, 0), v: moved(&self.v, 1), a: moved(&self.a, 2), ..self.clone() }
+        let displaced = |node: &Node| Node { motion: [0, 1].map(|k| node.motion[k] + node.jitter[k]), ..*node };
+        let path = self.path.iter().map(displaced).collect();
+        Self { d: moved(&self.d, 0), v: moved(&self.v, 1), a: moved(&self.a, 2), path, ..self.clone() }
     }
 
     /// Force of a source along the motion, N; none where its law has no force in time.
@@ -182,13 +213,24 @@ impl Loop {
             return Some(along.iter().map(|x| source.coefficient() * x).collect());
         }
         if law.point(p, 0.0, 1.0).is_some() {
-            let force = |(d, v): (&f64, &f64)| law.point(p, *d, *v).unwrap_or_default().force;
-            return Some(self.d.iter().zip(&self.v).map(force).collect());
+            return Some(self.averaged(|node| law.point(p, node.motion[0], node.motion[1]).unwrap_or_default().force));
         }
         let mut memory = law.memory(p)?;
         // The record begins where the component is at rest.
-        let start = self.d[0];
-        Some(self.d.iter().map(|d| memory.advance(d - start, self.step)).collect())
+        let start = self.path[0].motion[0];
+        Some(self.averaged(|node| memory.advance(node.motion[0] - start, node.step)))
+    }
+
+    /// The mean of a force over the nodes of each sample, N.
+    fn averaged(&self, mut force: impl FnMut(&Node) -> f64) -> Vec<f64> {
+        let mut sums = vec![[0.0, 0.0]; self.d.len()];
+        for node in &self.path {
+            let force = force(node);
+            if let Some([sum, count]) = node.sample.checked_sub(self.led).and_then(|sample| sums.get_mut(sample)) {
+                (*sum, *count) = (*sum + force, *count + 1.0);
+            }
+        }
+        sums.iter().map(|[sum, count]| sum / count).collect()
     }
 
     /// Work done on the component over the record, J, by a force along its motion.
@@ -203,34 +245,34 @@ impl Loop {
     }
 }
 
-/// Value, slope and curvature at the middle of a cubic through samples (least squares; Savitzky and Golay 1964).
-fn cubic(samples: &[f64], step: f64) -> [f64; 3] {
-    let half = (samples.len() / 2) as f64;
-    let (mut s2, mut s4, mut s6) = (0.0, 0.0, 0.0);
-    let (mut y0, mut y1, mut y2, mut y3) = (0.0, 0.0, 0.0, 0.0);
-    for (n, y) in samples.iter().enumerate() {
-        let x = n as f64 - half;
-        let square = x * x;
-        s2 += square;
-        s4 += square * square;
-        s6 += square * square * square;
-        y0 += y;
-        y1 += x * y;
-        y2 += square * y;
-        y3 += square * x * y;
-    }
-    let count = samples.len() as f64;
-    let (even, odd) = (count * s4 - s2 * s2, s2 * s6 - s4 * s4);
-    let offset = if even > 0.0 { (s4 * y0 - s2 * y2) / even } else { y0 / count };
-    let square = if even > 0.0 { (count * y2 - s2 * y0) / even } else { 0.0 };
-    let slope = if odd > 1e-9 * s2 * s6 { (s6 * y1 - s4 * y3) / odd } else { y1 / s2 };
-    [offset, slope / step, 2.0 * square / (step * step)]
+/// The samples from where the motion begins to where it ends: at rest a contact holds any force up to that of its friction.
+fn moving_part(motion: &[[f64; 3]]) -> Range<usize> {
+    let least = AT_REST * motion.iter().map(|m| m[1].abs()).fold(0.0, f64::max);
+    let moves = |m: &[f64; 3]| m[1].abs() > least;
+    let first = motion.iter().position(moves).unwrap_or(0);
+    first..motion.iter().rposition(moves).map_or(0, |last| last + 1)
 }
 
-/// One draw of white noise of this deviation; the same on every machine.
-fn drawn(deviation: f64, samples: usize) -> Vec<f64> {
-    let mut random = ChaCha8Rng::seed_from_u64(1);
-    (0..samples).map(|_| deviation * Distribution::<f64>::sample(&StandardNormal, &mut random)).collect()
+/// The motion as laws see it at the samples `numbers`: every measured one up to `reach` away where it turns. `motion` and its noise begin
+/// at sample `half`.
+fn path(numbers: &[usize], [motion, noise]: [&[[f64; 3]]; 2], [half, reach]: [usize; 2], step: f64) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(numbers.len());
+    let mut next = 0;
+    for (sample, &number) in numbers.iter().enumerate() {
+        let middle = number - half;
+        let around = middle.saturating_sub(reach)..=(middle + reach).min(motion.len() - 1);
+        let turns = motion[around.clone()].iter().any(|m| m[1] * motion[middle][1] <= 0.0);
+        for k in if turns { around } else { middle..=middle } {
+            if k < next {
+                continue;
+            }
+            let after = if next == 0 { 1 } else { k + 1 - next };
+            let [motion, jitter] = [motion, noise].map(|m| [m[k][0], m[k][1]]);
+            nodes.push(Node { sample, step: after as f64 * step, motion, jitter });
+            next = k + 1;
+        }
+    }
+    nodes
 }
 
 /// Standard deviation of white noise on a signal, from its third differences.
@@ -238,21 +280,4 @@ fn noise(samples: &[f64]) -> f64 {
     let third_difference = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
     let differences: Vec<f64> = samples.windows(4).map(third_difference).collect();
     crate::math::statistics::median(&differences) / (0.6745 * 20.0_f64.sqrt())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::cubic;
-
-    #[test]
-    fn a_cubic_is_its_own_fit() {
-        let step = 0.1;
-        let samples: Vec<f64> = (-3..=3)
-            .map(|n| {
-                2.0 - 0.5 * step * f64::from(n) + 4.0 * (step * f64::from(n)).powi(2) + (step * f64::from(n)).powi(3)
-            })
-            .collect();
-        let [value, slope, curvature] = cubic(&samples, step);
-        assert!((value - 2.0).abs() < 1e-12 && (slope + 0.5).abs() < 1e-12 && (curvature - 8.0).abs() < 1e-9);
-    }
 }

@@ -15,7 +15,7 @@ use crate::balance::loops::ComponentError;
 use crate::math::statistics::root_mean_square;
 
 /// Fits of each number of laws that are left out and predicted, and the steps of their fits.
-const PREDICTED: usize = 3;
+const PREDICTED: usize = 6;
 const STEPS: usize = 8;
 /// Share of the error of fewer laws that a sum may at most leave where it was left out: 0.8 takes away a third of its square.
 const WORTH: f64 = 0.8;

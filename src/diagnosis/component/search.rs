@@ -9,6 +9,7 @@
 
 use super::compare::noise_floor;
 use super::fit::{Fitted, Ranked, error, freedom, improved, predicted};
+use super::sums::Column;
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -18,8 +19,10 @@ use crate::math::statistics::{evidence_weights, root_mean_square};
 
 /// Fits of one law, of two and of three.
 const SINGLES: usize = 12;
-const PAIRS: usize = 10;
-const TRIPLES: usize = 10;
+const PAIRS: usize = 40;
+const TRIPLES: usize = 20;
+/// Fits of sums of which one law was exchanged.
+const EXCHANGES: usize = 12;
 const ITERATIONS: usize = 20;
 /// Error over that of the noise up to which a model agrees, and from which on a third law is looked for: below, what it adds is an error
 /// of the other two.
@@ -61,10 +64,14 @@ pub fn diagnose_component(
     }
     control.report(0.4);
     early(&search.suggestions(&search.by_evidence(&singles))?);
-    let pairs = search.fitted(Search::pairs(&columns), PAIRS)?;
+    let pairs = search.with_exchanges(&columns, search.fitted(Search::pairs(&columns), PAIRS)?)?;
     control.report(0.6);
     let lacks = pairs.first().is_some_and(|best| best.error(loops.list.len()) > LACKING * floor);
-    let triples = if lacks { search.fitted(search.triples(&columns, &pairs)?, TRIPLES)? } else { Vec::new() };
+    let triples = if lacks {
+        search.with_exchanges(&columns, search.fitted(search.triples(&columns, &pairs)?, TRIPLES)?)?
+    } else {
+        Vec::new()
+    };
     control.report(0.8);
     let sizes = [singles, pairs, triples];
     let ranked = search.ranked(&sizes)?;
@@ -111,7 +118,17 @@ impl Search<'_> {
     /// The first `count` starts fitted in all parameters, by evidence.
     fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
         let few: Vec<Vec<Source>> = starts.into_iter().take(count).collect();
-        let fitted_start = |k: usize| improved(self.loops, &few[k], &self.all, ITERATIONS, self.control);
+        let range = self.loops.range();
+        let fitted_start = |k: usize| {
+            let fit = improved(self.loops, &few[k], &self.all, ITERATIONS, self.control)?;
+            // A law that is all but a simpler one on these loops is that one.
+            let plain: Vec<Source> =
+                fit.effects.iter().map(|e| e.simpler(&range).unwrap_or_else(|| e.clone())).collect();
+            if plain == fit.effects {
+                return Ok(fit);
+            }
+            improved(self.loops, &merged(plain), &self.all, ITERATIONS, self.control)
+        };
         let mut fits = self.control.map(few.len(), fitted_start).into_iter().collect::<Result<Vec<Fitted>, _>>()?;
         fits.retain(|f| {
             let mut at = 0;
@@ -122,7 +139,14 @@ impl Search<'_> {
             })
         });
         fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
-        Ok(fits)
+        Ok(without_repeats(fits))
+    }
+
+    /// Sums with those that follow from the best of them by exchange of one law, by evidence.
+    fn with_exchanges(&self, columns: &[Column], mut fits: Vec<Fitted>) -> Result<Vec<Fitted>, ComponentError> {
+        fits.extend(self.fitted(self.exchanges(columns, &fits)?, EXCHANGES)?);
+        fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
+        Ok(without_repeats(fits))
     }
 
     /// Bayesian information criterion on the independent data of the loops.
@@ -168,10 +192,19 @@ impl Search<'_> {
                 });
             }
         }
-        // The laws of the best fit, the surest first.
+        // The laws of the best fit, the surest first; of those that are as sure the one with the larger force.
         let first = ranked.first().map_or(0, |best| best.fit.effects.len()).min(list.len());
-        list[..first].sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        list[..first].sort_by_cached_key(|s| {
+            let percent = (100.0 * s.probability).round() as i64;
+            (-percent, std::cmp::Reverse(self.force_square(&s.added.source).to_bits()))
+        });
         Ok(list)
+    }
+
+    /// Sum over the records of the mean square of the force of a source, N^2; its bits are in its order.
+    fn force_square(&self, source: &Source) -> f64 {
+        let forces = self.loops.list.iter().filter_map(|one| one.law_force(source));
+        forces.map(|force| root_mean_square(&force).powi(2)).sum()
     }
 
     /// Relative error of the energy of the records, root mean square.
@@ -185,10 +218,38 @@ impl Search<'_> {
     }
 }
 
-/// Whether the loops fix every parameter to within its own size: a law with one that they do not is a simpler one by another name.
+/// Fits without those that stand in the list before.
+fn without_repeats(fits: Vec<Fitted>) -> Vec<Fitted> {
+    let mut different: Vec<Fitted> = Vec::new();
+    for fit in fits {
+        let same = |known: &Fitted| {
+            known.effects.len() == fit.effects.len()
+                && fit.effects.iter().all(|e| known.effects.iter().any(|k| k.is_same(e)))
+        };
+        if !different.iter().any(same) {
+            different.push(fit);
+        }
+    }
+    different
+}
+
+/// Laws without those that stand in the list before.
+fn merged(laws: Vec<Source>) -> Vec<Source> {
+    let mut different: Vec<Source> = Vec::new();
+    for law in laws {
+        if !different.iter().any(|known| known.is_same(&law)) {
+            different.push(law);
+        }
+    }
+    different
+}
+
+/// Whether the loops fix every size of a law, and every parameter of one that has simpler laws as limits, to within its own size: what
+/// they do not fix is nothing, or a simpler law by another name.
 fn is_determined(source: &Source, deviations: &[f64]) -> bool {
-    source.effect.limits().next().is_none()
-        || source.parameters.iter().zip(deviations).all(|(p, d)| d.is_finite() && *d < p.abs())
+    let has_limits = source.effect.limits().next().is_some();
+    let fixed = |k: usize| deviations[k].is_finite() && deviations[k] < source.parameters[k].abs();
+    (0..source.parameters.len()).filter(|k| has_limits || source.effect.scaled().contains(k)).all(fixed)
 }
 
 /// What is said where a sum leaves that many times the noise.

@@ -12,6 +12,8 @@ const ROWS: usize = 4000;
 const SHAPES: usize = 6;
 /// Sums of two to which every other law is added.
 const BASES: usize = 4;
+/// Sums of which one law is exchanged for every other.
+const EXCHANGED: usize = 3;
 
 /// A law in one shape, its force in unit scale over rows of all records.
 pub(super) struct Column {
@@ -105,50 +107,79 @@ impl Search<'_> {
 
     /// The best shape of every law beside each of the best sums of two, best first.
     pub(super) fn triples(&self, columns: &[Column], pairs: &[Fitted]) -> Result<Vec<Vec<Source>>, ComponentError> {
+        let bases = pairs.iter().filter(|f| f.effects.len() == 2).take(BASES);
+        let found = bases.map(|f| self.beside(columns, &f.effects)).collect::<Result<Vec<_>, _>>()?;
+        Ok(best_first(found.into_iter().flatten().collect()))
+    }
+
+    /// The best sums of those in `fits` with one law exchanged for another, best first.
+    pub(super) fn exchanges(&self, columns: &[Column], fits: &[Fitted]) -> Result<Vec<Vec<Source>>, ComponentError> {
+        let mut found = Vec::new();
+        for fit in fits.iter().filter(|f| f.effects.len() > 1).take(EXCHANGED) {
+            for k in 0..fit.effects.len() {
+                let mut others = fit.effects.clone();
+                others.remove(k);
+                found.extend(self.beside(columns, &others)?);
+            }
+        }
+        let is_fitted = |set: &[Source]| fits.iter().any(|fit| has_laws_of(set, &fit.effects));
+        Ok(best_first(found).into_iter().filter(|set| !is_fitted(set)).collect())
+    }
+
+    /// The best shape of every other law beside the laws in `base`, all scaled anew, each with what it takes from the square.
+    fn beside(&self, columns: &[Column], base: &[Source]) -> Result<Vec<(f64, Vec<Source>)>, ComponentError> {
         let measured = Self::thinned(residual(self.loops, &[], &self.all)?);
-        let mut found: Vec<(f64, Vec<Source>)> = Vec::new();
-        for pair in pairs.iter().filter(|f| f.effects.len() == 2).take(BASES) {
-            let rows = |source: &Source| -> Result<Vec<f64>, ComponentError> {
-                let with = Self::thinned(residual(self.loops, std::slice::from_ref(source), &self.all)?);
-                Ok(measured.iter().zip(&with).map(|(m, w)| m - w).collect())
+        let rows = |source: &Source| -> Result<Vec<f64>, ComponentError> {
+            let with = Self::thinned(residual(self.loops, std::slice::from_ref(source), &self.all)?);
+            Ok(measured.iter().zip(&with).map(|(m, w)| m - w).collect())
+        };
+        let base_rows = base.iter().map(rows).collect::<Result<Vec<_>, _>>()?;
+        let mut best: Vec<(f64, Vec<Source>)> = Vec::new();
+        for column in columns.iter().filter(|c| base.iter().all(|e| e.effect != c.source.effect)) {
+            let all: Vec<&[f64]> = base_rows.iter().chain([&column.rows]).map(Vec::as_slice).collect();
+            let Some((gain, scales)) = scales_of(&all, &measured) else { continue };
+            let laws = base.iter().chain([&column.source]).zip(scales);
+            let Some(set) = laws.map(|(law, scale)| sized(law, scale)).collect::<Option<Vec<Source>>>() else {
+                continue;
             };
-            let base = [rows(&pair.effects[0])?, rows(&pair.effects[1])?];
-            let mut best: Vec<(f64, Vec<Source>)> = Vec::new();
-            for column in columns.iter().filter(|c| pair.effects.iter().all(|e| e.effect != c.source.effect)) {
-                let Some((gain, scales)) = scales_of([&base[0], &base[1], &column.rows], &measured) else { continue };
-                let laws = pair.effects.iter().chain([&column.source]).zip(scales);
-                let Some(set) = laws.map(|(law, scale)| sized(law, scale)).collect::<Option<Vec<Source>>>() else {
-                    continue;
-                };
-                match best.iter_mut().find(|(_, own)| own[2].effect == column.source.effect) {
-                    Some(own) if gain > own.0 => *own = (gain, set),
-                    Some(_) => {}
-                    None => best.push((gain, set)),
-                }
-            }
-            found.append(&mut best);
-        }
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut sets: Vec<Vec<Source>> = Vec::new();
-        for (_, set) in found {
-            let same = |known: &Vec<Source>| set.iter().all(|a| known.iter().any(|b| a.effect == b.effect));
-            if !sets.iter().any(same) {
-                sets.push(set);
+            match best.iter_mut().find(|(_, own)| own[base.len()].effect == column.source.effect) {
+                Some(own) if gain > own.0 => *own = (gain, set),
+                Some(_) => {}
+                None => best.push((gain, set)),
             }
         }
-        Ok(sets)
+        Ok(best)
     }
 }
 
-/// Scales of three columns that fit `measured` best, and by how much its square falls.
-fn scales_of(columns: [&[f64]; 3], measured: &[f64]) -> Option<(f64, [f64; 3])> {
-    let unit = columns.map(|c| dot(c, c).sqrt().max(f64::MIN_POSITIVE));
-    let normal =
-        Mat::from_fn(3, 3, |i, j| dot(columns[i], columns[j]) / (unit[i] * unit[j]) + if i == j { 1e-9 } else { 0.0 });
-    let against = Mat::from_fn(3, 1, |i, _| dot(columns[i], measured) / unit[i]);
+/// Whether a set has the laws of another, whatever their parameters.
+fn has_laws_of(set: &[Source], other: &[Source]) -> bool {
+    set.len() == other.len() && set.iter().all(|a| other.iter().any(|b| a.effect == b.effect))
+}
+
+/// Sets in the order of their gains, each set of laws once.
+fn best_first(mut found: Vec<(f64, Vec<Source>)>) -> Vec<Vec<Source>> {
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut sets: Vec<Vec<Source>> = Vec::new();
+    for (_, set) in found {
+        if !sets.iter().any(|known| has_laws_of(&set, known)) {
+            sets.push(set);
+        }
+    }
+    sets
+}
+
+/// Scales of columns that fit `measured` best, and by how much its square falls.
+fn scales_of(columns: &[&[f64]], measured: &[f64]) -> Option<(f64, Vec<f64>)> {
+    let count = columns.len();
+    let unit: Vec<f64> = columns.iter().map(|c| dot(c, c).sqrt().max(f64::MIN_POSITIVE)).collect();
+    let normal = Mat::from_fn(count, count, |i, j| {
+        dot(columns[i], columns[j]) / (unit[i] * unit[j]) + if i == j { 1e-9 } else { 0.0 }
+    });
+    let against = Mat::from_fn(count, 1, |i, _| dot(columns[i], measured) / unit[i]);
     let solved = Cholesky::new(normal.as_ref())?.solve(against.as_ref());
-    let gain = (0..3).map(|i| solved[(i, 0)] * against[(i, 0)]).sum();
-    Some((gain, std::array::from_fn(|i| solved[(i, 0)] / unit[i])))
+    let gain = (0..count).map(|i| solved[(i, 0)] * against[(i, 0)]).sum();
+    Some((gain, (0..count).map(|i| solved[(i, 0)] / unit[i]).collect()))
 }
 
 /// A law of unit scale at a scale; none where its parameters do not allow it.

@@ -16,6 +16,7 @@ use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::loading_curve::{LoadingCurve, Reached};
 use crate::effects::parameter::{Ends, Parameter};
 use crate::effects::symbol::{Mark, Tone};
+use std::f64::consts::LN_2;
 
 /// Smooth hysteresis.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +35,8 @@ const DESCRIPTION: Description = Description {
             parameters: |p| vec![p[0]],
         },
         Limit { law: Effect::Coulomb, holds: |p, at| relative(p, at.least) * CLOSE > 1.0, parameters: |p| vec![p[1]] },
-        Limit { law: Effect::ElasticSlider, holds: |p, _| CLOSE * p[2] > 1.0, parameters: |p| vec![p[0], p[1]] },
+        // For large exponents the loading curve lies ln 2 / exponent of the force beside the corner of the slider at the most.
+        Limit { law: Effect::ElasticSlider, holds: |p, _| LN_2 < CLOSE * p[2], parameters: |p| vec![p[0], p[1]] },
     ],
     symbol: &[
         Mark::spring(-0.5, -0.02, 3),
@@ -107,5 +109,25 @@ impl InternalLaw for BoucWen {
 
     fn bound(&self, p: &[f64]) -> f64 {
         p[1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where it is told as an elastic slider, its loading curve lies no further from that of the slider than laws that are all but alike.
+    #[test]
+    fn a_large_exponent_makes_it_an_elastic_slider() {
+        let farthest = |exponent: f64| {
+            let curve = LoadingCurve::new(exponent);
+            let gap = |k: i32| {
+                let extension = 0.01 * f64::from(k);
+                (extension.min(1.0) - reached(&curve, 0.0, extension).z).abs()
+            };
+            (0..300).map(gap).fold(0.0, f64::max)
+        };
+        let least = LN_2 / CLOSE;
+        assert!(farthest(1.01 * least) < CLOSE && farthest(0.9 * least) > CLOSE, "{}", farthest(least));
     }
 }
