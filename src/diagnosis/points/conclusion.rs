@@ -17,6 +17,7 @@ const MOST: usize = 8;
 /// The answer of a search that ended with these fits, one list a number of effects.
 pub(super) fn conclude(balance: &Balance, by_size: &[Vec<Fitted>]) -> Diagnosis {
     let mut diagnosis = as_stated(balance);
+    let by_size = lowering(by_size, diagnosis.error_before);
     match (by_size.first(), by_size.last()) {
         (Some(first), Some(top)) => {
             let set: Vec<Source> = top[0].added.iter().map(|added| added.source.clone()).collect();
@@ -35,6 +36,13 @@ pub(super) fn conclude(balance: &Balance, by_size: &[Vec<Fitted>]) -> Diagnosis 
         _ => without_effects(&mut diagnosis, balance),
     }
     diagnosis
+}
+
+/// The fits up to the last number of effects whose best set leaves a smaller error than the model as it is, `before`: weighed by its
+/// noise a set may fit better and leave more energy all the same, which explains nothing.
+fn lowering(by_size: &[Vec<Fitted>], before: f64) -> &[Vec<Fitted>] {
+    let lowers = |fits: &Vec<Fitted>| fits[0].error < before;
+    &by_size[..by_size.iter().rposition(lowers).map_or(0, |k| k + 1)]
 }
 
 /// Number of the known source of which `source` is more: linear sources of one law and place add up.
@@ -80,14 +88,16 @@ fn as_stated(balance: &Balance) -> Diagnosis {
 /// The verdict where no effect has the evidence.
 fn without_effects(diagnosis: &mut Diagnosis, balance: &Balance) {
     let (n, left) = (balance.missing.len(), sum_of_squares(&balance.weighted()));
-    diagnosis.corrections = balance.corrections(&[]);
+    let error = root_mean_square(&balance.errors(&[]));
+    if error < diagnosis.error_before {
+        diagnosis.corrections = balance.corrections(&[]);
+    }
     diagnosis.verdict = match (agrees(left, n, 0), diagnosis.corrections.is_empty()) {
         (true, true) => Verdict::Adequate,
         (true, false) => Verdict::Detuned,
         (false, _) => Verdict::Unexplained,
     };
     if !diagnosis.corrections.is_empty() {
-        let error = root_mean_square(&balance.errors(&[]));
         diagnosis.steps.push(Step { added: Vec::new(), error, misfit: left / n as f64 });
     }
 }
@@ -146,7 +156,28 @@ fn sentences(added: &Added, before: f64, after: f64) -> Vec<String> {
     vec![
         added.source.effect.sentence().to_string(),
         crate::diagnosis::selection::sentences::values(&added.source, &added.deviations),
-        format!("The error of the energy falls from {:.3} % to {:.3} %.", 100.0 * before, 100.0 * after),
+        format!(
+            "The error of the energy {} from {:.3} % to {:.3} %.",
+            if after < before { "falls" } else { "would rise with it alone" },
+            100.0 * before,
+            100.0 * after
+        ),
         "Without mass and stiffness only the energy of each run can be compared.".to_string(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_that_leave_more_than_the_model_as_it_is_are_not_told() {
+        let fit =
+            |error: f64| vec![Fitted { added: Vec::new(), chi_square: 1.0, parameters: 1, error, held_out: error }];
+        let told = |errors: &[f64]| {
+            let by_size: Vec<Vec<Fitted>> = errors.iter().map(|e| fit(*e)).collect();
+            lowering(&by_size, 0.2).len()
+        };
+        assert_eq!([told(&[0.3, 0.4]), told(&[0.1, 0.4]), told(&[0.3, 0.1]), told(&[])], [0, 1, 2, 0]);
+    }
 }
