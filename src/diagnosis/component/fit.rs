@@ -69,6 +69,21 @@ pub(super) fn residual(loops: &Loops, effects: &[Source], used: &[usize]) -> Res
     Ok(all)
 }
 
+/// Fits without those that stand in the list before.
+pub(super) fn without_repeats(fits: Vec<Fitted>) -> Vec<Fitted> {
+    let mut different: Vec<Fitted> = Vec::new();
+    for fit in fits {
+        let same = |known: &Fitted| {
+            known.effects.len() == fit.effects.len()
+                && fit.effects.iter().all(|e| known.effects.iter().any(|k| k.is_same(e)))
+        };
+        if !different.iter().any(same) {
+            different.push(fit);
+        }
+    }
+    different
+}
+
 /// Independent data of `count` records.
 pub(super) fn freedom(count: usize) -> f64 {
     PER_RECORD * count as f64

@@ -8,8 +8,7 @@
 //!    ([`super::ranking`]).
 
 use super::compare::noise_floor;
-use super::fit::{Fitted, Ranked, error, freedom, improved, predicted};
-use super::sums::Column;
+use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, without_repeats};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
@@ -21,8 +20,6 @@ use crate::math::statistics::{evidence_weights, root_mean_square};
 const SINGLES: usize = 12;
 const PAIRS: usize = 40;
 const TRIPLES: usize = 20;
-/// Fits of sums of which one law was exchanged.
-const EXCHANGES: usize = 12;
 const ITERATIONS: usize = 20;
 /// Error over that of the noise up to which a model agrees, and from which on a third law is looked for: below, what it adds is an error
 /// of the other two.
@@ -116,7 +113,7 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     /// The first `count` starts fitted in all parameters, by evidence.
-    fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
+    pub(super) fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
         let few: Vec<Vec<Source>> = starts.into_iter().take(count).collect();
         let range = self.loops.range();
         let fitted_start = |k: usize| {
@@ -138,13 +135,6 @@ impl Search<'_> {
                 is_allowed(self.excluded, e, own) && is_determined(e, own) && !e.is_disguised()
             })
         });
-        fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
-        Ok(without_repeats(fits))
-    }
-
-    /// Sums with those that follow from the best of them by exchange of one law, by evidence.
-    fn with_exchanges(&self, columns: &[Column], mut fits: Vec<Fitted>) -> Result<Vec<Fitted>, ComponentError> {
-        fits.extend(self.fitted(self.exchanges(columns, &fits)?, EXCHANGES)?);
         fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
         Ok(without_repeats(fits))
     }
@@ -216,21 +206,6 @@ impl Search<'_> {
         let all: Vec<f64> = self.loops.list.iter().map(relative_error).collect::<Result<_, _>>()?;
         Ok(root_mean_square(&all))
     }
-}
-
-/// Fits without those that stand in the list before.
-fn without_repeats(fits: Vec<Fitted>) -> Vec<Fitted> {
-    let mut different: Vec<Fitted> = Vec::new();
-    for fit in fits {
-        let same = |known: &Fitted| {
-            known.effects.len() == fit.effects.len()
-                && fit.effects.iter().all(|e| known.effects.iter().any(|k| k.is_same(e)))
-        };
-        if !different.iter().any(same) {
-            different.push(fit);
-        }
-    }
-    different
 }
 
 /// Laws without those that stand in the list before.

@@ -1,6 +1,6 @@
 //! Starts of fits: single laws, sums of two and of three, scaled to the force on the grid of their shapes.
 
-use super::fit::{Fitted, residual};
+use super::fit::{Fitted, residual, without_repeats};
 use super::search::Search;
 use crate::balance::loops::ComponentError;
 use crate::effects::{Effect, Place, Source, State};
@@ -14,6 +14,8 @@ const SHAPES: usize = 6;
 const BASES: usize = 4;
 /// Sums of which one law is exchanged for every other.
 const EXCHANGED: usize = 3;
+/// Fits of sums of which one law was exchanged.
+const EXCHANGES: usize = 12;
 
 /// A law in one shape, its force in unit scale over rows of all records.
 pub(super) struct Column {
@@ -112,8 +114,19 @@ impl Search<'_> {
         Ok(best_first(found.into_iter().flatten().collect()))
     }
 
+    /// Sums with those that follow from the best of them by exchange of one law, by evidence.
+    pub(super) fn with_exchanges(
+        &self,
+        columns: &[Column],
+        mut fits: Vec<Fitted>,
+    ) -> Result<Vec<Fitted>, ComponentError> {
+        fits.extend(self.fitted(self.exchanges(columns, &fits)?, EXCHANGES)?);
+        fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
+        Ok(without_repeats(fits))
+    }
+
     /// The best sums of those in `fits` with one law exchanged for another, best first.
-    pub(super) fn exchanges(&self, columns: &[Column], fits: &[Fitted]) -> Result<Vec<Vec<Source>>, ComponentError> {
+    fn exchanges(&self, columns: &[Column], fits: &[Fitted]) -> Result<Vec<Vec<Source>>, ComponentError> {
         let mut found = Vec::new();
         for fit in fits.iter().filter(|f| f.effects.len() > 1).take(EXCHANGED) {
             for k in 0..fit.effects.len() {

@@ -153,15 +153,16 @@ fn alike(top: &[Fitted], source: &Source) -> Vec<Source> {
 }
 
 fn sentences(added: &Added, before: f64, after: f64) -> Vec<String> {
+    let [before, after] = [before, after].map(|error| 100.0 * error);
+    let change = if after < before {
+        format!("The error of the energy falls from {before:.3} % to {after:.3} %.")
+    } else {
+        format!("Alone it would raise the error of the energy from {before:.3} % to {after:.3} %.")
+    };
     vec![
         added.source.effect.sentence().to_string(),
         crate::diagnosis::selection::sentences::values(&added.source, &added.deviations),
-        format!(
-            "The error of the energy {} from {:.3} % to {:.3} %.",
-            if after < before { "falls" } else { "would rise with it alone" },
-            100.0 * before,
-            100.0 * after
-        ),
+        change,
         "Without mass and stiffness only the energy of each run can be compared.".to_string(),
     ]
 }
