@@ -127,6 +127,10 @@ impl Search<'_> {
             improved(self.loops, &merged(plain), &self.all, ITERATIONS, self.control)
         };
         let mut fits = self.control.map(few.len(), fitted_start).into_iter().collect::<Result<Vec<Fitted>, _>>()?;
+        // A sum of which two laws are one is a smaller sum, which is looked at among those.
+        let sizes: Vec<usize> = few.iter().map(Vec::len).collect();
+        let mut size = sizes.iter();
+        fits.retain(|f| size.next() == Some(&f.effects.len()));
         fits.retain(|f| {
             let mut at = 0;
             f.effects.iter().all(|e| {
@@ -161,8 +165,9 @@ impl Search<'_> {
                 }
                 let alike = |j: &usize| *j != k && (ranked[*j].criterion - criterion).abs() < ALIKE;
                 let others = (0..ranked.len()).filter(alike).flat_map(|j| &ranked[j].fit.effects);
-                let indistinguishable_from =
+                let others: Vec<Source> =
                     others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
+                let indistinguishable_from = merged(others);
                 let mut words = vec![
                     added.source.effect.sentence().to_string(),
                     format!(
