@@ -2,7 +2,7 @@
 //!
 //! 1. Every law on the grid of its shapes, scaled to the force; every pair of shapes likewise, by their products.
 //! 2. The best of each are fitted in all their parameters; where sums of two leave more than the noise, a third law is added to the
-//!    best of them (`sums`).
+//!    best of them; one law of the best sums is exchanged for every other (`sums`).
 //! 3. Each record is left out in turn and predicted from the others: a sum is told first only where it predicts clearly better
 //!    than fewer laws. All, single laws and sums, are ranked by what they leave of the records that were left out
 //!    ([`super::ranking`]).
@@ -116,21 +116,22 @@ impl Search<'_> {
     pub(super) fn fitted(&self, starts: Vec<Vec<Source>>, count: usize) -> Result<Vec<Fitted>, ComponentError> {
         let few: Vec<Vec<Source>> = starts.into_iter().take(count).collect();
         let range = self.loops.range();
-        let fitted_start = |k: usize| {
+        let fitted_start = |k: usize| -> Result<Option<Fitted>, ComponentError> {
             let fit = improved(self.loops, &few[k], &self.all, ITERATIONS, self.control)?;
             // A law that is all but a simpler one on these loops is that one.
             let plain: Vec<Source> =
                 fit.effects.iter().map(|e| e.simpler(&range).unwrap_or_else(|| e.clone())).collect();
             if plain == fit.effects {
-                return Ok(fit);
+                return Ok(Some(fit));
             }
-            improved(self.loops, &merged(plain), &self.all, ITERATIONS, self.control)
+            // A sum of which two laws are one is a smaller sum, which is looked at among those.
+            if distinct(&plain).len() < plain.len() {
+                return Ok(None);
+            }
+            improved(self.loops, &plain, &self.all, ITERATIONS, self.control).map(Some)
         };
-        let mut fits = self.control.map(few.len(), fitted_start).into_iter().collect::<Result<Vec<Fitted>, _>>()?;
-        // A sum of which two laws are one is a smaller sum, which is looked at among those.
-        let sizes: Vec<usize> = few.iter().map(Vec::len).collect();
-        let mut size = sizes.iter();
-        fits.retain(|f| size.next() == Some(&f.effects.len()));
+        let fits = self.control.map(few.len(), fitted_start).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut fits: Vec<Fitted> = fits.into_iter().flatten().collect();
         fits.retain(|f| {
             let mut at = 0;
             f.effects.iter().all(|e| {
@@ -167,7 +168,7 @@ impl Search<'_> {
                 let others = (0..ranked.len()).filter(alike).flat_map(|j| &ranked[j].fit.effects);
                 let others: Vec<Source> =
                     others.filter(|o| !fit.effects.iter().any(|e| e.is_same(o))).cloned().collect();
-                let indistinguishable_from = merged(others);
+                let indistinguishable_from = distinct(&others);
                 let mut words = vec![
                     added.source.effect.sentence().to_string(),
                     format!(
@@ -214,11 +215,11 @@ impl Search<'_> {
 }
 
 /// Laws without those that stand in the list before.
-fn merged(laws: Vec<Source>) -> Vec<Source> {
+fn distinct(laws: &[Source]) -> Vec<Source> {
     let mut different: Vec<Source> = Vec::new();
     for law in laws {
-        if !different.iter().any(|known| known.is_same(&law)) {
-            different.push(law);
+        if !different.iter().any(|known| known.is_same(law)) {
+            different.push(law.clone());
         }
     }
     different
