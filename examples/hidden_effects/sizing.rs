@@ -66,6 +66,7 @@ pub(crate) fn shaped(effect: Effect, [d, v, omega]: [f64; 3], s: f64) -> Vec<f64
         Effect::Fractional => vec![s / d / omega.powf(0.4), 0.4],
         Effect::ElasticSlider | Effect::Dahl => vec![s / (0.25 * d), s],
         Effect::BoucWen => vec![s / (0.25 * d), s, 1.5],
+        Effect::StiffeningBoucWen => vec![0.7 * s / d, s, 0.3],
         Effect::AsymmetricViscous => vec![s / v, 0.5 * s / v],
         Effect::AsymmetricCoulomb => vec![s, 0.3 * s],
         Effect::Maxwell => vec![s / d, s / d / omega],

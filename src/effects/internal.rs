@@ -44,8 +44,8 @@ pub(crate) trait InternalLaw: Sync {
     /// Derivative of the force at the end by parameter `k`, start and way held.
     fn step_by(&self, shape: &Self::Shape, p: &[f64], k: usize, start: f64, way: f64) -> f64;
 
-    /// Largest internal force, N: no way leads beyond it.
-    fn bound(&self, p: &[f64]) -> f64;
+    /// Largest internal force, N: no steady motion between extremes that are `range` (m) apart leads beyond it.
+    fn bound(&self, p: &[f64], range: f64) -> f64;
 
     /// The law's force (N) at this internal one, and its slope by it.
     fn output(&self, p: &[f64], internal: f64) -> [f64; 2] {
@@ -123,21 +123,23 @@ impl<T: InternalLaw> Internal<T> {
 
     /// The force of a spring about the middle of the motion, within the bound.
     fn unslipped(&self, p: &[f64], d: &[f64]) -> f64 {
-        let bound = self.0.bound(p);
+        let (least, most) = extremes(d);
+        let bound = self.0.bound(p, d[most] - d[least]);
         (self.0.stiffness(p) * (d[0] - middle(d))).clamp(-bound, bound)
     }
 
     /// The ways of one period in steady state, and the slope of the period's map there.
     fn ways(&self, p: &[f64], d: &[f64]) -> (Vec<(f64, Way)>, f64) {
-        let (bound, shape) = (self.0.bound(p), self.0.shape(p));
-        let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
         let (least, most) = extremes(d);
-        let size = bound.min(self.0.stiffness(p) * (d[most] - d[least]));
+        let range = d[most] - d[least];
+        let (bound, shape) = (self.0.bound(p, range), self.0.shape(p));
+        let (mut low, mut high, mut start) = (-bound, bound, self.unslipped(p, d));
+        let size = bound.min(self.0.stiffness(p) * range);
         let (mut ways, mut slope) = (Vec::with_capacity(d.len()), 1.0);
         for _ in 0..STEPS {
             let [end, by_start] = self.period((&shape, p), d, start, &mut ways);
             slope = by_start;
-            if slope > SLIPLESS {
+            if (slope - 1.0).abs() < 1.0 - SLIPLESS {
                 break;
             }
             let rest = end - start;
@@ -146,11 +148,12 @@ impl<T: InternalLaw> Internal<T> {
             } else {
                 high = start;
             }
-            let newton = start + rest / (1.0 - slope);
+            // Where forces grow on the way the map may rise faster than its argument; at the steady state it does not.
+            let newton = if slope < 1.0 { start + rest / (1.0 - slope) } else { f64::NAN };
             let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
             let change = (next - start).abs();
             // Newton converges quadratically: what is left is rounding, as the step to the fixed point magnifies it.
-            if change * (1.0 - slope) <= 1e-13 * size {
+            if change * (1.0 - slope).abs() <= 1e-13 * size {
                 break;
             }
             start = next;

@@ -16,6 +16,7 @@ macro_rules! table_of_laws {
             Iwan: Masing = iwan,
             Fractional: Linear = fractional,
             BoucWen: Internal = bouc_wen,
+            StiffeningBoucWen: Internal = stiffening_bouc_wen,
             Dahl: Internal = dahl,
             ElasticSliderBacklash: Internal = elastic_slider_backlash,
             AsymmetricViscous: Memoryless = asymmetric_viscous,

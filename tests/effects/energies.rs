@@ -11,7 +11,7 @@ fn the_sampled_work_of_one_harmonic_is_the_closed_form() {
     for (effect, law, p) in cases() {
         for (amplitude, omega) in [(1e-5, 20.0), (3e-4, 20.0), (3e-4, 300.0), (5e-3, 90.0)] {
             let Some(wanted) = law.energy_per_cycle(&p, amplitude, omega) else {
-                assert!(matches!(effect, Effect::Stribeck | Effect::BoucWen), "{effect}");
+                assert!(matches!(effect, Effect::Stribeck | Effect::BoucWen | Effect::StiffeningBoucWen), "{effect}");
                 continue;
             };
             let phase = c64::new(0.36_f64.cos(), 0.36_f64.sin()) * amplitude;
@@ -36,7 +36,7 @@ fn the_energy_of_several_harmonics_is_the_finely_sampled_work() {
         // Laws that are not smooth at rest and have no exact formula, with no more than 96 samples.
         let tolerance = match effect {
             Effect::Power | Effect::Quadratic | Effect::Stribeck | Effect::AsymmetricViscous => 2e-3,
-            Effect::BoucWen | Effect::Dahl => 1e-5,
+            Effect::BoucWen | Effect::StiffeningBoucWen | Effect::Dahl => 1e-5,
             _ => 1e-7,
         };
         assert!((found - wanted).abs() < tolerance * scale, "{effect} {p:?}: {found} instead of {wanted}");
@@ -156,6 +156,28 @@ fn a_dahl_loop_is_that_of_its_equation() {
     // Small loops tend to 4/3 stiffness^2 X^3 / force.
     let small = law.energy_per_cycle(&p, 1e-7, 9.0).unwrap();
     assert_close(small, 4.0 / 3.0 * p[0] * p[0] * 1e-21 / p[1], 1e-6, "small loop");
+}
+
+/// The stiffening loop against its closed form: from where it turns, at `z_m`, it unloads over `u = ln(1 + z_m)` and loads over the rest `w`
+/// of the way between the turns, `z_m = (exp(r w) - 1) / r`; one half takes out `(z_m - w) / r - (z_m - u)`.
+#[test]
+fn a_stiffening_loop_is_its_closed_form() {
+    let (law, amplitude) = (Effect::StiffeningBoucWen.law().unwrap(), 1e-3);
+    for p in [[1e4, 5.0, 0.3], [2e4, 1.5, 0.8], [5e3, 2.0, -0.6], [1e2, 2.0, 0.5]] {
+        let (range, r) = (2.0 * p[0] * amplitude / p[1], p[2]);
+        let turned = |w: f64| (r * w).exp_m1() / r;
+        let (mut low, mut high) = (0.0, range);
+        for _ in 0..200 {
+            let w = 0.5 * (low + high);
+            if w + turned(w).ln_1p() < range { low = w } else { high = w }
+        }
+        let (w, z) = (low, turned(low));
+        let energy = 2.0 * p[1] * p[1] / p[0] * ((z - w) / r - (z - z.ln_1p()));
+        let scale = p[1] * z * amplitude;
+        let found = law.energy(&p, &Motion::cosine(9.0, amplitude, 64));
+        assert!((found - energy).abs() < 1e-6 * scale, "{p:?}: {found} instead of {energy}");
+        assert_close(sampled(law, &p, &Motion::cosine(9.0, amplitude, 64))[0], p[1] * z, 1e-10, "where it turns");
+    }
 }
 
 /// The slider with backlash against its definition marched from rest: what it takes out is its force over the way that it slides.

@@ -62,6 +62,7 @@ fn limits_are_the_simpler_law_where_they_hold() {
         (Effect::BoucWen, &[1e3, 10.0, 2.0], Effect::Stiffness, 0.03),
         (Effect::BoucWen, &[1e9, 2.0, 2.0], Effect::Coulomb, 0.08),
         (Effect::BoucWen, &[1e4, 2.0, 40.0], Effect::ElasticSlider, 0.03),
+        (Effect::StiffeningBoucWen, &[1e3, 50.0, 0.5], Effect::Stiffness, 0.03),
         (Effect::Dahl, &[1e3, 50.0], Effect::Stiffness, 0.03),
         (Effect::Dahl, &[1e9, 2.0], Effect::Coulomb, 0.08),
         (Effect::ElasticSliderBacklash, &[1e4, 2.0, 2e-5], Effect::ElasticSlider, 0.05),

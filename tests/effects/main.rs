@@ -29,6 +29,7 @@ fn cases() -> Vec<(Effect, &'static dyn Law, Vec<f64>)> {
         ),
         (Effect::Fractional, &[&[4.0, 0.3], &[4.0, 0.8]]),
         (Effect::BoucWen, &[&[1e4, 1.0, 2.0], &[2e3, 1.5, 1.0], &[5e3, 2.0, 7.5]]),
+        (Effect::StiffeningBoucWen, &[&[1e4, 5.0, 0.3], &[2e3, 1.5, 0.8], &[5e3, 2.0, -0.6], &[5e3, 2.0, 0.0]]),
         (Effect::Dahl, &[&[1e4, 1.0], &[2e3, 2.0]]),
         (Effect::ElasticSliderBacklash, &[&[1e4, 1.0, 4e-4], &[4e3, 0.9, 1e-3], &[1e4, 2.0, 0.0]]),
         (Effect::AsymmetricViscous, &[&[3.0, 0.5], &[0.4, 2.0]]),

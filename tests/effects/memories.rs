@@ -13,7 +13,7 @@ fn stepping_through_time_reaches_the_steady_state() {
         tried.push(effect);
         let mut marched = vec![0.0; motion.len()];
         // The slip laws of Masing's kind are periodic at once, those with one internal force by and by.
-        let internal = matches!(effect, Effect::BoucWen | Effect::Dahl);
+        let internal = matches!(effect, Effect::BoucWen | Effect::StiffeningBoucWen | Effect::Dahl);
         let periods = match effect {
             Effect::Maxwell => 6,
             _ if internal => 40,
@@ -43,6 +43,7 @@ fn stepping_through_time_reaches_the_steady_state() {
         Effect::Maxwell,
         Effect::Iwan,
         Effect::BoucWen,
+        Effect::StiffeningBoucWen,
         Effect::Dahl,
         Effect::ElasticSliderBacklash,
     ];

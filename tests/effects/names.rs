@@ -30,6 +30,7 @@ fn parameters_are_those_of_the_contract() {
         "stiffness force chi beta",
         "c order",
         "stiffness force exponent",
+        "stiffness force loading",
         "stiffness force",
         "stiffness force backlash",
         "c_pull c_push",

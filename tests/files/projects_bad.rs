@@ -139,7 +139,7 @@ fn sources() {
         "[[source]]\nlaw = \"viscos\"\nstate = \"known\"\n",
         "p.toml:9: `law = \"viscos\"` is not understood; use one of \
         \"viscous\", \"coulomb\", \"quadratic\", \"power\", \"hysteretic\", \"stribeck\", \"elastic_slider\", \"maxwell\", \"iwan\", \
-        \"fractional\", \"bouc_wen\", \"dahl\", \"elastic_slider_backlash\", \"asymmetric_viscous\", \"asymmetric_coulomb\", \"stiffness\", \"cubic_stiffness\", \"quadratic_stiffness\", \"gap\", \"stop\", \"mass\", \"loss_factor\", \
+        \"fractional\", \"bouc_wen\", \"stiffening_bouc_wen\", \"dahl\", \"elastic_slider_backlash\", \"asymmetric_viscous\", \"asymmetric_coulomb\", \"stiffness\", \"cubic_stiffness\", \"quadratic_stiffness\", \"gap\", \"stop\", \"mass\", \"loss_factor\", \
         \"stiffness_proportional\", \"mass_proportional\", \"delay\", \"gain\"",
     );
     chain(

@@ -32,6 +32,7 @@ fn agrees(name: &str, extra: Source, steps: usize, harmonic: usize) {
 fn smooth_hysteresis_on_the_five_masses() {
     agrees("bouc-wen", source(Effect::BoucWen, &[2], &[2e4, 5.0, 2.0]), 2000, 3);
     agrees("bouc-wen between two masses", source(Effect::BoucWen, &[1, 2], &[5e4, 4.0, 1.0]), 2000, 3);
+    agrees("stiffening", source(Effect::StiffeningBoucWen, &[2], &[2e4, 5.0, 0.3]), 2000, 3);
     agrees("dahl", source(Effect::Dahl, &[2], &[2e4, 5.0]), 2000, 3);
     agrees("backlash", source(Effect::ElasticSliderBacklash, &[2], &[4e4, 5.0, 1e-4]), 4000, 3);
 }
@@ -90,6 +91,7 @@ fn only_laws_that_are_not_odd_make_even_harmonics() {
             Effect::AsymmetricViscous => vec![60.0, 10.0],
             Effect::QuadraticStiffness => vec![1e7],
             Effect::BoucWen => vec![2e4, 5.0, 3.0],
+            Effect::StiffeningBoucWen => vec![2e4, 5.0, 0.3],
             Effect::Dahl => vec![2e4, 5.0],
             Effect::ElasticSliderBacklash => vec![4e4, 5.0, 1e-4],
             Effect::Stop => vec![3e4, 2e-4],

@@ -222,6 +222,7 @@ fn acting_laws() -> Vec<(Effect, Vec<f64>)> {
         (Effect::Dahl, vec![4e3, 0.4]),
         (Effect::ElasticSliderBacklash, vec![4e3, 0.4, 2e-4]),
         (Effect::BoucWen, vec![4e3, 0.4, 1.7]),
+        (Effect::StiffeningBoucWen, vec![2e3, 0.4, 0.3]),
         (Effect::Viscous, vec![0.4]),
         (Effect::Mass, vec![0.02]),
         (Effect::Stiffness, vec![300.0]),

@@ -107,7 +107,7 @@ impl InternalLaw for BoucWen {
         }
     }
 
-    fn bound(&self, p: &[f64]) -> f64 {
+    fn bound(&self, p: &[f64], _range: f64) -> f64 {
         p[1]
     }
 }

@@ -88,7 +88,7 @@ impl InternalLaw for Dahl {
         if k == 0 { -length * rest } else { sign * (1.0 - fading) + rest * stiffness * length / force }
     }
 
-    fn bound(&self, p: &[f64]) -> f64 {
+    fn bound(&self, p: &[f64], _range: f64) -> f64 {
         p[1]
     }
 

@@ -99,7 +99,7 @@ impl InternalLaw for ElasticSliderBacklash {
         }
     }
 
-    fn bound(&self, p: &[f64]) -> f64 {
+    fn bound(&self, p: &[f64], _range: f64) -> f64 {
         bound(p)
     }
 
