@@ -27,6 +27,10 @@ const NO_GAIN: f64 = 0.02;
 /// Gain of a round, in the same units, below which there is no other: what derivatives that are held have missed is a small share of it.
 const LITTLE: f64 = 2.0;
 
+/// Share of the weight of the priors below which what a fit leaves asks for another round with less of it: they held the model to what is
+/// stated more strongly than what is left demands.
+const HELD: f64 = 0.5;
+
 /// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
     if start.count > 0 { scale(start) } else { 1.0 }
@@ -78,11 +82,27 @@ impl FitProblem<'_> {
     pub(super) fn chord_fit_from(
         &self,
         start: &FittedRecords,
+        rounds: [usize; 2],
+        chord: &mut Option<ChordJacobian>,
+    ) -> Result<FittedRecords, RecordError> {
+        self.chord_rounds(start, rounds, unit_of(start), chord)
+    }
+
+    /// The same with priors that weigh as if the start left noise alone, then what it leaves: where the priors of a start that leaves much
+    /// hold corrections so fast that what they would take away stays.
+    pub(super) fn freed(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
+        let free = self.chord_rounds(start, rounds, 1.0, &mut None)?;
+        self.chord_fit(&free, rounds)
+    }
+
+    fn chord_rounds(
+        &self,
+        start: &FittedRecords,
         [rounds, steps]: [usize; 2],
+        mut unit: f64,
         chord: &mut Option<ChordJacobian>,
     ) -> Result<FittedRecords, RecordError> {
         let scales = scales(&start.effects);
-        let unit = unit_of(start);
         let mut best = start.clone();
         for round in 0..rounds {
             let defect = self.defect(&best)?;
@@ -105,11 +125,14 @@ impl FitProblem<'_> {
             let limits = Limits { steps, attempts: ATTEMPTS_HELD, least_gain: LEAST_GAIN };
             ((best, equations), ended) = self.descend((best, normal), limits, &scales, unit, &there)?;
             let little = before - equations.left.total(unit) < LITTLE * unit;
-            if ended || little || round + 1 >= rounds || self.control.is_late() {
-                return Ok(self.finish(best, &scales, equations));
+            best = self.finish(best, &scales, equations);
+            let held = unit_of(&best) < HELD * unit;
+            if (ended || little) && !held || self.control.is_late() {
+                return Ok(best);
             }
+            unit = if held { unit_of(&best) } else { unit };
         }
-        self.improve(&best, 0)
+        Ok(best)
     }
 
     /// Steps from a place; whether the first of them gained nothing.

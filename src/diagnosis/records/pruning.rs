@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Most rivals whose last law is of the family of that of a better one at the same place, or that law at another place: laws of one family
 /// share their special cases and fit the same data, neighbouring places see the same motion, so that more than two add nothing.
-const MOST_OF_FAMILY: usize = 2;
+pub(super) const MOST_OF_FAMILY: usize = 2;
 /// Evidence by which a fit must be behind one that leaves no more than noise to be pruned on longer segments: a descent that ended after
 /// some steps has less to gain there. Three times that within which fits are carried on; of an Iwan joint under hammers
 /// (looked-at seed 3504) the neighbours were 315 and more behind on parts, and thousands on the whole records.
@@ -56,14 +56,18 @@ fn is_same_law(one: &FittedRecords, other: &FittedRecords) -> bool {
     law(one) == law(other)
 }
 
-/// Whether the last laws of two fits, at the same place, are the same, or one has all special cases of the other.
+/// Whether the last laws of two fits act at the same place and are of one family.
 fn is_same_family(one: &FittedRecords, other: &FittedRecords) -> bool {
     let (Some(a), Some(b)) = (one.effects.last(), other.effects.last()) else { return false };
+    a.place.is_same(&b.place) && are_of_one_family(a.effect, b.effect)
+}
+
+/// Whether two laws are the same, or one has all special cases of the other.
+pub(super) fn are_of_one_family(a: Effect, b: Effect) -> bool {
     let has_limits_of = |wide: Effect, other: Effect| {
         other.limits().next().is_some() && other.limits().all(|limit| wide.contains(limit))
     };
-    let (x, y) = (a.effect, b.effect);
-    a.place.is_same(&b.place) && (x == y || has_limits_of(x, y) || has_limits_of(y, x))
+    a == b || has_limits_of(a, b) || has_limits_of(b, a)
 }
 
 /// Whether two sets hold the same effects, in any order.

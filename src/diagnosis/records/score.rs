@@ -15,6 +15,7 @@ use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
 use super::normal_equations::RecordDerivatives;
 use super::problem::{FitProblem, Free};
+use super::pruning::{MOST_OF_FAMILY, are_of_one_family};
 use super::regression::foremost;
 use super::search::Search;
 use super::steps::Steps;
@@ -291,13 +292,17 @@ fn begun(problem: &FitProblem, fit: &FittedRecords, scales: &[Vec<f64>], scored:
     best.map_or_else(|| along(1.0), |(_, start)| start)
 }
 
-/// The first of a list, no more of one law or one place than [`MOST_ALIKE`].
+/// The first of a list, no more of one law or one place than [`MOST_ALIKE`], and of laws of one family at a place no more than
+/// [`MOST_OF_FAMILY`].
 fn diverse(all: Vec<Scored>) -> Vec<Scored> {
     let mut taken: Vec<Scored> = Vec::new();
     for one in all {
         let of_law = taken.iter().filter(|t| t.source.effect == one.source.effect).count();
-        let of_place = taken.iter().filter(|t| t.source.place.is_same(&one.source.place)).count();
-        if of_law < MOST_ALIKE && of_place < MOST_ALIKE && taken.len() < TAKEN {
+        let here: Vec<Effect> =
+            taken.iter().filter(|t| t.source.place.is_same(&one.source.place)).map(|t| t.source.effect).collect();
+        let of_family = here.iter().filter(|&&effect| are_of_one_family(effect, one.source.effect)).count();
+        let few = of_law < MOST_ALIKE && here.len() < MOST_ALIKE && of_family < MOST_OF_FAMILY;
+        if few && taken.len() < TAKEN {
             taken.push(one);
         }
     }

@@ -20,6 +20,8 @@ use std::sync::OnceLock;
 /// Rounds and steps in each of the fits of those that are followed, and how many are.
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
+/// The same of the fit whose corrections are freed.
+const FREEING: [usize; 2] = [2, 6];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
 /// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
@@ -250,16 +252,22 @@ impl Search<'_> {
         level: usize,
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordError> {
-        let general = self.generalised_starts(level, &found)?;
-        let mut starts = [general, self.special_case_starts(level, &found)].concat();
-        // A generalisation may have come further than the special case to which it has converged.
-        for _ in 0..2 {
+        let law_of_best = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.effect);
+        let mut generalised = None;
+        // A generalisation may have come further than the special case to which it has converged, and that special case have others.
+        for _ in 0..3 {
+            let mut starts = self.special_case_starts(level, &found);
+            if law_of_best(&found) != generalised {
+                let mut general = self.generalised_starts(level, &found)?;
+                general.retain(|s| generalised.is_none() || !found.iter().any(|f| is_same_set(&f.effects, &s.effects)));
+                generalised = law_of_best(&found);
+                starts.splice(0..0, general);
+            }
             starts.retain(|s| found.first().is_none_or(|best| !self.pruned.holds(&s.effects, best)));
             if starts.is_empty() {
                 break;
             }
             found = self.with_begun(level, found, &starts)?;
-            starts = self.special_case_starts(level, &found);
         }
         let mut elsewhere = self.starts_at_rival_places(level, &found)?;
         if level < GROWING && !self.control.is_late() {
@@ -268,7 +276,25 @@ impl Search<'_> {
         if !elsewhere.is_empty() {
             found = self.with_begun(level, found, &elsewhere)?;
         }
-        self.moved_along(level, found)
+        let found = self.moved_along(level, found)?;
+        if level + 1 == self.levels.len() { self.with_best_freed(level, found) } else { Ok(found) }
+    }
+
+    /// Fits, best first, the first of them begun once more with corrections that are free ([`FitProblem::freed`]) where it leaves more than
+    /// noise: on the way to it the corrections were held by all that was left.
+    fn with_best_freed(&self, level: usize, mut found: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
+        let Some(best) = found.first().filter(|f| misfit(f) > AGREES && !self.control.is_late()) else {
+            return Ok(found);
+        };
+        let freed = match self.problem(level, 1.0).freed(best, FREEING) {
+            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(found),
+            other => other?,
+        };
+        let unit = scale(best).min(scale(&freed));
+        if evidence(&freed, unit) < evidence(best, unit) {
+            found[0] = freed;
+        }
+        Ok(self.sorted(level, found))
     }
 
     /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is pruned.
