@@ -7,6 +7,7 @@ use crate::math::statistics::root_mean_square;
 use crate::measurement::{Quantity, TransientRun};
 use crate::structure::Structure;
 use imposed_motion::{Band, derivatives};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -142,9 +143,16 @@ impl Loop {
             let found = run.channels().iter().position(|c| c.quantity == quantity);
             found.ok_or(ComponentError::NoChannel { file: file.clone(), needed })
         };
-        let moved = only_channel(Quantity::Displacement, "of displacement (disp)")?;
         let pushed = only_channel(Quantity::Force, "of force (force)")?;
-        let (d, force, step) = (run.samples(moved), run.samples(pushed), run.step());
+        let (force, step) = (run.samples(pushed), run.step());
+        let d = match only_channel(Quantity::Displacement, "of displacement (disp) or velocity (vel)") {
+            Ok(moved) => Cow::Borrowed(run.samples(moved)),
+            Err(missing) => match only_channel(Quantity::Velocity, "") {
+                Ok(moved) => Cow::Owned(integrated(run.samples(moved), step)),
+                Err(_) => return Err(missing),
+            },
+        };
+        let d: &[f64] = &d;
         let mean = d.iter().sum::<f64>() / d.len() as f64;
         let centred: Vec<f64> = d.iter().map(|d| d - mean).collect();
         let peak = Spectrum::new(&centred, step).and_then(|s| s.highest_peak());
@@ -243,6 +251,23 @@ impl Loop {
         let mean = self.force.iter().sum::<f64>() / self.force.len() as f64;
         root_mean_square(&self.force.iter().map(|f| f - mean).collect::<Vec<f64>>())
     }
+}
+
+/// Displacement of a measured velocity, by the trapezoidal rule and without the straight line that an error of its zero makes of it: the
+/// middle of the motion is its zero. Of four cycles with ramps at both ends the line takes away or adds some 1.4 % of the range.
+fn integrated(velocity: &[f64], step: f64) -> Vec<f64> {
+    let mut d = vec![0.0; velocity.len()];
+    for n in 1..d.len() {
+        d[n] = d[n - 1] + 0.5 * step * (velocity[n - 1] + velocity[n]);
+    }
+    let from_middle = |n: usize| n as f64 - 0.5 * (velocity.len() as f64 - 1.0);
+    let mean = d.iter().sum::<f64>() / d.len() as f64;
+    let (product, square) = d
+        .iter()
+        .enumerate()
+        .fold((0.0, 0.0), |(product, square), (n, d)| (product + from_middle(n) * d, square + from_middle(n).powi(2)));
+    let slope = if square > 0.0 { product / square } else { 0.0 };
+    d.iter().enumerate().map(|(n, d)| d - mean - slope * from_middle(n)).collect()
 }
 
 /// The samples from where the motion begins to where it ends: at rest a contact holds any force up to that of its friction.

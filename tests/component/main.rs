@@ -161,6 +161,38 @@ fn a_law_of_a_sum_is_exchanged_for_the_right_one() {
     assert_eq!(laws, ["iwan", "power"]);
 }
 
+/// Where a record holds the velocity, the displacement is what it integrates to, whatever the zero of that sensor.
+#[test]
+fn a_velocity_stands_for_the_displacement() {
+    let truth = [at(Effect::BoucWen, &[4e6, 9000.0, 2.0]), at(Effect::Viscous, &[12000.0])];
+    let moved = sampled_tests(&truth, 2000.0);
+    let differentiated = |run: &TransientRun| {
+        let (d, time) = (run.samples(0), run.time().to_vec());
+        let slope = |n: usize| (d[(n + 1).min(d.len() - 1)] - d[n.max(1) - 1]) * 1000.0 + 0.02;
+        let channels = vec![
+            Channel { quantity: Quantity::Velocity, dof: 0, label: "1".into() },
+            Channel { quantity: Quantity::Force, dof: 0, label: "1".into() },
+        ];
+        let samples = vec![(0..d.len()).map(slope).collect(), run.samples(1).to_vec()];
+        let label =
+            TransientLabel { file: run.file.clone(), kind: Kind::Transient, enabled: true, ..Default::default() };
+        TransientRun::new(label, Arc::new(record(&time, channels, samples, None).unwrap()), &[]).unwrap()
+    };
+    let runs: Vec<TransientRun> = moved.iter().map(differentiated).collect();
+    let [a, b] = [&moved, &runs].map(|runs| Loops::new(&structure(), &[], runs).unwrap());
+    for (a, b) in a.list.iter().zip(&b.list) {
+        let range = |d: &[f64]| d.iter().fold(f64::MIN, |m, d| m.max(*d)) - d.iter().fold(f64::MAX, |m, d| m.min(*d));
+        assert!((range(&b.d) / range(&a.d) - 1.0).abs() < 0.02, "{}: {} for {} m", a.file, range(&b.d), range(&a.d));
+    }
+    let diagnosis = diagnosed(&[], &runs);
+    let last = diagnosis.steps.last().unwrap();
+    let names: Vec<String> =
+        last.added.iter().map(|a| format!("{} {:?}", a.source.effect, a.source.parameters)).collect();
+    let dashpot = last.added.iter().find(|a| a.source.is_same(&truth[1])).unwrap_or_else(|| panic!("{names:?}"));
+    assert!((dashpot.source.parameters[0] / truth[1].parameters[0] - 1.0).abs() < 0.1, "{names:?}");
+    assert!(last.error < 0.05, "{} {names:?}", last.error);
+}
+
 #[test]
 fn a_model_that_agrees_is_left_alone() {
     let truth = [at(Effect::Viscous, &[40_000.0])];
