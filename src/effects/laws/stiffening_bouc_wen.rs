@@ -91,7 +91,12 @@ fn reached(r: f64, z: f64, xi: f64) -> Reached {
     let to_zero = (-z).ln_1p();
     if way <= to_zero {
         let fading = (-way).exp();
-        return Reached { z: sign * ((z - 1.0) * fading + 1.0), by_start: fading, by_way: (1.0 - z) * fading, by_loading: 0.0 };
+        return Reached {
+            z: sign * ((z - 1.0) * fading + 1.0),
+            by_start: fading,
+            by_way: (1.0 - z) * fading,
+            by_loading: 0.0,
+        };
     }
     let to = loaded(r, 0.0, way - to_zero);
     Reached { z: sign * to.z, by_start: to.by_way / (1.0 - z), by_way: to.by_way, by_loading: sign * to.by_loading }
