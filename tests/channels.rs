@@ -1,6 +1,8 @@
 //! Reversed, exchanged and misread channels are named before any law is looked for, and mended in the mapping.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, missing_docs, reason = "tests")]
 
+#[path = "channels/delays.rs"]
+mod delays;
 #[path = "channels/in_time.rs"]
 mod in_time;
 

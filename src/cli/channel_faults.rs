@@ -22,6 +22,12 @@ pub(super) fn suggestions(faults: &[ChannelFault]) -> impl Iterator<Item = Value
                 map.insert("parameters".into(), json!({ "gain": factor }));
                 map.insert("standard_deviation".into(), json!({ "gain": null }));
             }
+            Fault::Late(delay) => {
+                map.insert("effect".into(), json!("delay"));
+                map.insert("channel".into(), json!(fault.channels[0]));
+                map.insert("parameters".into(), json!({ "delay": delay }));
+                map.insert("standard_deviation".into(), json!({ "delay": null }));
+            }
             Fault::Common(factor) => {
                 map.insert("effect".into(), json!("gain"));
                 map.insert("dofs".into(), json!([]));
@@ -53,6 +59,7 @@ pub(super) fn document(fault: &ChannelFault) -> Value {
         Fault::Exchanged => ("exchanged", None),
         Fault::Elsewhere(_) => ("elsewhere", None),
         Fault::Unreliable(_) => ("unreliable", None),
+        Fault::Late(_) => ("late", None),
         Fault::Factor(-1.0) | Fault::Common(-1.0) => ("reversed", Some(-1.0)),
         Fault::Factor(factor) | Fault::Common(factor) => ("factor", Some(factor)),
     };
@@ -60,6 +67,7 @@ pub(super) fn document(fault: &ChannelFault) -> Value {
         "fault": kind,
         "channels": fault.channels,
         "factor": factor,
+        "delay_s": if let Fault::Late(delay) = fault.fault { Some(delay) } else { None },
         "scatter": if let Fault::Unreliable(scatter) = fault.fault { Some(scatter) } else { None },
         "words": fault.words(),
         "error_before": fault.error_before,

@@ -72,6 +72,11 @@ impl TransientRun {
         run.findings.extend(evened);
         Ok(run)
     }
+
+    /// The same run without known errors of its channels.
+    pub(crate) fn without_errors(&self, corrections: &[ChannelCorrection]) -> Self {
+        self.with_record(corrected(self.record.clone(), corrections))
+    }
 }
 
 /// Release (s) of a decay of which the project does not say where it begins.
@@ -143,7 +148,7 @@ fn windowed(run: &TransientRun, constant: f64) -> Finding {
 }
 
 /// `y(n + shift)` between the samples; beyond the ends the last polynomial goes on for no more than the shift.
-fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
+pub(crate) fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
     if shift == 0.0 {
         return Cow::Borrowed(samples);
     }

@@ -4,13 +4,13 @@ use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
 use super::document::Document;
 use super::mending::mend;
 use super::refusal::Refusal;
+use super::sensors::set_sensor;
 use super::{sources, structure};
 use crate::effects::{Effect, Family, State};
 use crate::exchange::project::MeasurementTables;
 use crate::exchange::project::correction::CorrectionTable;
-use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, SensorTable, Shape, SourceTable};
+use crate::exchange::project::file::{CandidatesTable, ProjectFile, RunTable, Shape, SourceTable};
 use crate::exchange::project::ruled_out::RuledOutTable;
-use crate::measurement::Quantity;
 use crate::structure::beam::Supports;
 use crate::structure::{LumpedMass, Structure};
 use std::collections::BTreeMap;
@@ -211,23 +211,6 @@ fn set_frequency(file: &mut ProjectFile, name: &str, frequency: Option<f64>) -> 
 
 fn within(name: &'static str, value: f64, holds: bool, range: &'static str) -> Done {
     if holds { Ok(()) } else { Err(Refusal::OutOfRange { name, range, value }) }
-}
-
-fn set_sensor(file: &mut ProjectFile, channel: &str, values: [Option<f64>; 2], on: &Structure) -> Done {
-    let wrong = || Refusal::NoSuchChannel { channel: channel.into() };
-    let (word, label) = channel.split_once('@').ok_or_else(wrong)?;
-    Quantity::from_word(word).ok_or_else(wrong)?;
-    on.require_dof(label)?;
-    let [delay, gain] = values;
-    let table = SensorTable { channel: channel.into(), delay, gain };
-    for (effect, value) in table.errors() {
-        crate::effects::Source::known(effect, crate::effects::Place::Channel(channel.into()), &[value]).check()?;
-    }
-    file.sensor.retain(|sensor| sensor.channel != channel);
-    if table.errors().next().is_some() {
-        file.sensor.push(table);
-    }
-    Ok(())
 }
 
 fn ruled_out(at: &EffectAt) -> RuledOutTable {

@@ -79,6 +79,9 @@ pub struct Mending {
     /// How many times too large they read, negative where they are reversed; none where they are exchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
+    /// How many seconds the channel is recorded late, beside what is stated of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub late: Option<f64>,
     /// Whether the first channel is where the second is said to be.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub elsewhere: bool,

@@ -5,6 +5,7 @@ mod responses;
 
 use super::command::{Command, Mending};
 use super::refusal::Refusal;
+use super::sensors::delay_further;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::exchange::Project;
 use crate::exchange::mapping::ChannelTable;
@@ -23,12 +24,13 @@ const OF_SOME: &str = " ?";
 pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
     let factor = match fault.fault {
         Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
-        Fault::Exchanged | Fault::Elsewhere(_) => None,
+        Fault::Exchanged | Fault::Elsewhere(_) | Fault::Late(_) => None,
         Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
     };
     let elsewhere = matches!(fault.fault, Fault::Elsewhere(_));
+    let late = if let Fault::Late(delay) = fault.fault { Some(delay) } else { None };
     let (channels, driven) = (fault.channels.clone(), driven(project));
-    Ok(Command::MendChannels(Mending { channels, factor, elsewhere, driven, records: of_records(project) }))
+    Ok(Command::MendChannels(Mending { channels, factor, late, elsewhere, driven, records: of_records(project) }))
 }
 
 /// Labels of the DOFs where the forces of frequency responses act.
@@ -58,8 +60,11 @@ fn of_records(project: &Project) -> Vec<String> {
 }
 
 /// Mends the mapping of the channels: their `[[channel]]`, those that are written for all channels of the records, and the
-/// `[frf.dofs]`.
+/// `[frf.dofs]`; of a channel that is late its `[[sensor]]`.
 pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) -> Result<(), Refusal> {
+    if let Some(more) = mending.late {
+        return delay_further(file, &mending.channels[0], more, on);
+    }
     let cannot =
         |reason: &str| Refusal::NotMended { channel: mending.channels.join(" and "), reason: reason.to_owned() };
     if !file.harmonics.is_empty() {

@@ -13,6 +13,7 @@ pub mod recent;
 mod refusal;
 pub mod save;
 pub mod script;
+mod sensors;
 #[expect(clippy::module_inception, reason = "the session is what the floor is for")]
 pub(crate) mod session;
 mod sources;

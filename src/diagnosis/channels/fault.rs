@@ -20,6 +20,8 @@ pub enum Fault {
     Exchanged,
     /// A sensor or a force is at another DOF than is said: at this row.
     Elsewhere(usize),
+    /// A channel is recorded that many seconds after the others; early where it is negative.
+    Late(f64),
     /// What a channel reads scatters by that much from run to run, relative: it is loose, or late, or its gain drifts. It is
     /// kept, with that as the deviation of what it reads.
     Unreliable(f64),
@@ -64,6 +66,10 @@ impl ChannelFault {
                 )
             }
             Fault::Common(factor) => common_words(&self.channels, factor),
+            Fault::Late(delay) => {
+                let when = if delay < 0.0 { "early" } else { "late" };
+                format!("{name} is recorded {} ms {when}", three_digits(1e3 * delay.abs()))
+            }
             Fault::Factor(factor) => {
                 let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
                 if factor == -1.0 {
@@ -85,6 +91,12 @@ impl ChannelFault {
         }
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;
+        if let Fault::Late(_) = self.fault {
+            return format!(
+                "its phase against the other channels turns in proportion to the frequency, which no law does: what the best model \
+                 leaves falls from {before} % to {after} %"
+            );
+        }
         if let Fault::Common(_) = self.fault {
             return format!(
                 "the masses of {shown} of {of} modes with runs about them say so, whatever their frequencies and damping: the error \

@@ -14,7 +14,7 @@
 //! F. J. Harris, *On the use of windows for harmonic analysis*, Proc. IEEE 66, 1978; exponential windows: D. J. Ewins, *Modal Testing*,
 //! 2nd edition, 3.11.
 
-use crate::diagnosis::records::data::noise_of;
+use crate::diagnosis::records::channel_noise::noise_of;
 use crate::measurement::{Kind, Quantity, TransientRun};
 use crate::structure::modes::Modes;
 use dashpot_numerics::RealTransform;

@@ -42,6 +42,8 @@ pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
                     .chain(&mut run.forces)
                     .filter(|channel| fault.channels.contains(&channel.name))
                     .for_each(|channel| divide(channel, *factor)),
+                // Of runs that are not steady alone.
+                Fault::Late(_) => {}
                 Fault::Unreliable(scatter) => responses.filter(is_first).for_each(|channel| widen(channel, *scatter)),
                 Fault::Elsewhere(dof) => responses
                     .chain(&mut run.forces)

@@ -1,12 +1,12 @@
 //! The records of a project as they are fitted: forces, responses, noise, the modes that they show.
 
+use super::channel_noise::under_forces;
 use super::frequencies::Motions;
 use super::part_directions::PartDirections;
 use super::weights::{deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
-use crate::math::spectrum::Spectrum;
-use crate::math::statistics::{mean, median};
+use crate::math::statistics::mean;
 use crate::measurement::{Channel, Kind, TransientRun, without_zero};
 use crate::response::transient::{TransientError, TransientModel, TransientSetup};
 use crate::structure::modes::Modes;
@@ -308,7 +308,8 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
     let (samples, means): (Vec<_>, Vec<_>) = seen.iter().map(|&c| centred(run.samples(c))).unzip();
     let step = run.step();
     let largest = samples.iter().map(|y| y.iter().fold(0.0_f64, |m, y| m.max(y.abs()))).collect();
-    let noise: Vec<f64> = samples.iter().map(|y| noise_of(y, step)).collect();
+    let forces: Vec<Vec<f64>> = driven.iter().map(|&c| without_zero(run.samples(c))).collect();
+    let noise: Vec<f64> = samples.iter().map(|y| under_forces(y, &forces, step)).collect();
     let sigma = samples.iter().zip(&noise).map(|(y, noise)| vec![*noise; y.len()]).collect();
     let motions = Motions { samples: &samples, noise: &noise, step };
     let dominant_hz = motions.dominant_hz();
@@ -325,7 +326,7 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
         means,
         largest,
         drives: driven.iter().map(|&c| run.channels()[c].dof).collect(),
-        forces: driven.iter().map(|&c| without_zero(run.samples(c))).collect(),
+        forces,
         every: 1,
         settled: Vec::new(),
         noise,
@@ -345,17 +346,6 @@ fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
 fn centred(signal: &[f64]) -> (Vec<f64>, f64) {
     let mean = mean(signal);
     (signal.iter().map(|y| y - mean).collect(), mean)
-}
-
-/// Noise of a signal from the highest quarter of its spectrum, taken as white; at least rounding of the largest sample.
-pub(crate) fn noise_of(signal: &[f64], step: f64) -> f64 {
-    let largest = signal.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-    let Some(spectrum) = Spectrum::new(signal, step) else { return largest * 1e-3 };
-    let count = spectrum.amplitude.len();
-    let high = median(&spectrum.amplitude[count * 3 / 4..]);
-    // Amplitude of a line of white noise behind Hann's window: Rayleigh with a median of 0.8326 sigma sqrt(6 / N).
-    let sigma = high / (0.8326 * (6.0 / signal.len() as f64).sqrt());
-    sigma.max(1e-6 * largest).max(f64::MIN_POSITIVE)
 }
 
 /// The channels that differ in what they measure and where.

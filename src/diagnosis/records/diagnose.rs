@@ -8,6 +8,7 @@
 //!    samples over which it stays alike, so that many samples of one error do not count as many.
 //! 4. An effect is kept if it also predicts the last part of each record from a fit on the rest.
 
+use super::channel_delays;
 use super::compare::{noise_floor, started};
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, GAIN, evidence, misfit, scale};
@@ -18,8 +19,11 @@ use super::suggestions::{last_deviations, suggestions};
 use crate::control::Control;
 use crate::diagnosis::result::{Diagnosis, Early, Step};
 use crate::effects::Source;
-use crate::measurement::TransientRun;
+use crate::measurement::{ChannelCorrection, TransientRun};
 
+/// Times that delays of channels are taken out, and the share of the error that may be left then: a search costs as much as the first.
+const DELAYS: usize = 2;
+const WITHOUT_DELAYS: f64 = 0.8;
 /// Squared corrections over their prior deviations beyond which an effect that makes them needless is looked for: of all, and of each
 /// where they are many.
 const PLAUSIBLE: [f64; 2] = [16.0, 3.0];
@@ -48,7 +52,8 @@ const SURE: f64 = 3.0;
 const VANISHED: f64 = 2.0;
 const WITHOUT: [usize; 2] = [4, 4];
 
-/// Finds what the model of `records` lacks; effects `excluded` are not suggested.
+/// Finds what the model of `records` lacks; effects `excluded` are not suggested. Delays of channels that it shows are taken out, and the
+/// search is made again.
 ///
 /// # Errors
 /// [`RecordError`]: models that cannot be predicted, a search that was stopped.
@@ -58,6 +63,41 @@ pub fn diagnose_records(
     control: &Control,
     early: &Early,
 ) -> Result<Diagnosis, RecordError> {
+    let (mut diagnosis, mut asked) = searched(records, excluded, control, early)?;
+    let (stated, before) = (diagnosis.steps[0].clone(), left(&diagnosis));
+    let mut delays = Vec::new();
+    for _ in 0..DELAYS {
+        if asked.is_empty() || control.is_late() {
+            break;
+        }
+        let all = channel_delays::added(delays.clone(), asked);
+        let (without, more) = searched(&records.without_delays(&all)?, excluded, control, early)?;
+        if left(&without) > WITHOUT_DELAYS * left(&diagnosis) {
+            break;
+        }
+        (diagnosis, asked, delays) = (without, more, all);
+    }
+    if !delays.is_empty() {
+        let faults = channel_delays::as_faults(&delays, [before, left(&diagnosis)]);
+        diagnosis.follows(stated, faults);
+    }
+    diagnosis.complete = control.is_complete();
+    control.report(1.0);
+    Ok(diagnosis)
+}
+
+/// Error that a diagnosis leaves.
+fn left(diagnosis: &Diagnosis) -> f64 {
+    diagnosis.steps.last().map_or(diagnosis.error_before, |step| step.error)
+}
+
+/// What is found in records as they are read, with the delays that their channels show beside it.
+fn searched(
+    records: &Records,
+    excluded: &[Source],
+    control: &Control,
+    early: &Early,
+) -> Result<(Diagnosis, Vec<ChannelCorrection>), RecordError> {
     let bare = started(records, &[], control)?;
     // Both as comparing the project shows them: one error and one noise floor of a record, whoever asks.
     let (before, noise_floor) = (bare.error(records, 0.0, 1.0)?, noise_floor(records, &bare)?);
@@ -67,11 +107,11 @@ pub fn diagnose_records(
     let stated = Step { added: Vec::new(), error: before, misfit: misfit(&bare) };
     let mut diagnosis = Diagnosis::adequate(stated, noise_floor);
     if misfit(&bare) < weighted.agreement(AGREES) {
-        return Ok(diagnosis);
+        return Ok((diagnosis, Vec::new()));
     }
     let supports = search.giving_way(&bare)?;
-    if supports.is_empty() {
-        search.explain(&bare, &mut diagnosis, early)?;
+    let delays = if supports.is_empty() {
+        search.explain(&bare, &mut diagnosis, early)?
     } else {
         let structure = records.structure.with_factors(&factors_of(&supports));
         // More modes may be seen then.
@@ -82,11 +122,9 @@ pub fn diagnose_records(
         let search = Search::new(&weighted, &held, (excluded, records.structure, &supports), control);
         diagnosis.corrections.clone_from(&supports);
         let bare = search.quiet(search.levels.len() - 1, &bare)?;
-        search.explain(&bare, &mut diagnosis, early)?;
-    }
-    diagnosis.complete = control.is_complete();
-    control.report(1.0);
-    Ok(diagnosis)
+        search.explain(&bare, &mut diagnosis, early)?
+    };
+    Ok((diagnosis, delays))
 }
 
 /// How the model as it is agrees with the records.
@@ -99,11 +137,16 @@ pub(crate) fn agreement_with_records(records: &Records, control: &Control) -> Re
 }
 
 impl Search<'_> {
-    /// Searches beside `bare`, the model on whole records, and concludes.
-    fn explain(&self, bare: &FittedRecords, diagnosis: &mut Diagnosis, early: &Early) -> Result<(), RecordError> {
+    /// Searches beside `bare`, the model on whole records, and concludes; delays of channels that the best fit asks for.
+    fn explain(
+        &self,
+        bare: &FittedRecords,
+        diagnosis: &mut Diagnosis,
+        early: &Early,
+    ) -> Result<Vec<ChannelCorrection>, RecordError> {
         let by_size = self.climbed(bare, early)?;
         self.conclude(&by_size, diagnosis)?;
-        Ok(())
+        by_size.last.first().map_or(Ok(Vec::new()), |best| self.delays(best))
     }
 
     /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried

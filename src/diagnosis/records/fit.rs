@@ -152,7 +152,9 @@ impl FitProblem<'_> {
             }
             let before = equations.left.total(unit);
             let least = (limits.least_gain * before).max(NO_GAIN * unit);
-            let next = self.step(&best, scales, unit, (&equations, by), &mut damping, (limits.attempts, least))?;
+            // Derivatives that were taken here are not to be blamed for a step that fails.
+            let attempts = if k == 0 { ATTEMPTS } else { limits.attempts };
+            let next = self.step(&best, scales, unit, (&equations, by), &mut damping, (attempts, least))?;
             let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
             (best, equations) = (next, there);

@@ -13,7 +13,8 @@
 //! var(mean square) / (mean square)^2 = (2 / N) sum_k rho(k)^2,    rho the correlation of h
 //! ```
 
-use super::data::{RecordData, Records, noise_of};
+use super::channel_noise::noise_of;
+use super::data::{RecordData, Records};
 use crate::math::statistics::{median, root_mean_square};
 use crate::response::transient::{Hold, TransientModel};
 use dashpot_numerics::RealTransform;

@@ -6,6 +6,8 @@
 //! amplitude are read by one estimator from record and model ([`amplitude`]).
 
 pub mod amplitude;
+mod channel_delays;
+pub(crate) mod channel_noise;
 mod chord_steps;
 mod coarse_steps;
 pub(crate) mod compare;

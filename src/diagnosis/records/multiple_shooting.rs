@@ -1,7 +1,7 @@
 //! Multiple shooting (Bock 1983): records in segments, each with an initial state of its own. Over a segment a model that is off loses no
 //! phase, while the segments together hold the amplitudes of the whole record.
 //!
-//! Segments grow by [`GROWTH`] or [`GROWTH_DRIVEN`] from level to level until one would be half of the record; the last level is the whole
+//! Segments grow by [`GROWTH`] from level to level until one would be half of the record; the last level is the whole
 //! record. Decays are decimated to the samples that their motion needs.
 
 use super::compare::struck;
@@ -13,11 +13,8 @@ use super::weights::local;
 const PERIODS: f64 = 8.0;
 /// Least length of a segment, as a share of that many periods of the dominant motion: two periods hold its amplitude and its damping.
 const LEAST_SHARE: f64 = 0.25;
-/// Ratio of the lengths of segments from one level to the next; of long records in which forces act all the time, which hold the phase.
+/// Ratio of the lengths of segments from one level to the next.
 const GROWTH: f64 = 3.0;
-const GROWTH_DRIVEN: f64 = 9.0;
-/// Periods of the dominant motion from which on such a record is long.
-const LONG: f64 = 150.0;
 /// Most segments of a record and of all records; more records than that have one segment each.
 const MOST: usize = 5;
 const MOST_OF_ALL: usize = 8;
@@ -40,14 +37,11 @@ const FEWEST: usize = 48;
 impl Records<'_> {
     /// The records in segments of growing length, at last whole.
     pub(super) fn levels(&self) -> Vec<Self> {
-        let long = |r: &RecordData| r.dominant_hz * r.step * r.len() as f64 > LONG;
-        let driven = self.list.iter().all(|r| !r.forces.is_empty() && struck(r).is_none() && long(r));
-        let growth = if driven { GROWTH_DRIVEN } else { GROWTH };
         let mut levels = Vec::new();
         let mut periods = PERIODS;
         while let Some(segments) = self.in_segments(periods) {
             levels.push(segments.with_enough_samples());
-            periods *= growth;
+            periods *= GROWTH;
         }
         let whole = self.list.iter().map(|r| r.segment(0, r.len(), STEP_PHASE[1])).collect();
         levels.push(Self { list: whole, ..self.clone() }.with_enough_samples());

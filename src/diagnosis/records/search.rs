@@ -20,6 +20,13 @@ use std::sync::OnceLock;
 /// Rounds and steps in each of the fits of those that are followed, and how many are.
 const FOLLOWING: [usize; 2] = [2, 4];
 const FOLLOWED: usize = 6;
+/// The best of them that are followed to their end, how many times at most, and the share that is left of their squared residual from
+/// which on they have ended.
+const ENDED: usize = 2;
+const LONGEST: usize = 6;
+const STILL: f64 = 0.9;
+/// Steps with all derivatives.
+const NEWTON: usize = 6;
 /// The same of the fit whose corrections are freed.
 const FREEING: [usize; 2] = [2, 6];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
@@ -112,6 +119,29 @@ impl Search<'_> {
         rounds: [usize; 2],
     ) -> Result<FittedRecords, RecordError> {
         self.problem(level, share).chord_fit(start, rounds)
+    }
+
+    /// A fit followed as long as it leaves clearly less: on longer parts of the records one that is on its way down loses the phase, and
+    /// ends elsewhere.
+    fn to_its_end(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+        let mut fit = fit.clone();
+        for _ in 0..LONGEST {
+            if misfit(&fit) < AGREES || self.control.is_late() {
+                break;
+            }
+            let is_on_its_way = |next: &FittedRecords| next.chi_square < STILL * fit.chi_square;
+            let mut next = self.fit(level, &fit, 1.0, FOLLOWING)?;
+            if !is_on_its_way(&next) {
+                // With all derivatives taken at every step.
+                next = self.problem(level, 1.0).improve(&next, NEWTON)?;
+            }
+            let ended = !is_on_its_way(&next);
+            fit = next;
+            if ended {
+                break;
+            }
+        }
+        Ok(fit)
     }
 
     /// The whole records with the samples on which sets are fitted.
@@ -209,6 +239,8 @@ impl Search<'_> {
         let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
         keep(&mut followed, FOLLOWED, HOPELESS[0]);
         self.control.check()?;
+        let ended = self.control.map(followed.len().min(ENDED), |k| self.to_its_end(level, &followed[k]).ok());
+        followed.iter_mut().zip(ended).for_each(|(own, ended)| *own = ended.unwrap_or_else(|| own.clone()));
         self.beside_neighbours(level, self.sorted(level, followed))
     }
 

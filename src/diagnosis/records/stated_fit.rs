@@ -107,7 +107,9 @@ impl Search<'_> {
             if by_damping {
                 let stated = self.records.modal_damping(&vec![0.0; fit.known.len()]);
                 let sized = self.records.modal_damping(&fit.known);
-                own.damping.iter_mut().zip(sized.iter().zip(&stated)).for_each(|(v, (a, b))| *v += (a / b).ln());
+                // What is not damped, as a motion of the whole structure, has no factor.
+                let damped = own.damping.iter_mut().zip(sized.iter().zip(&stated)).filter(|(_, (_, b))| **b > 0.0);
+                damped.for_each(|(v, (a, b))| *v += (a / b).ln());
             } else {
                 own.damping.fill(0.0);
             }
@@ -320,7 +322,7 @@ pub(super) fn added_as_stated(stated: &[Added], added: &Added) -> Added {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::common::models::{oscillator, source};
+    use crate::common::models::{chain, oscillator, source, whole};
     use crate::common::runs::decay;
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
@@ -341,6 +343,25 @@ mod tests {
         let fit = FittedRecords { known: vec![0.2], chi_square: 400.0, count: 400, deviations, ..start };
         let (own, sizes) = search.by_sizes(&fit).swap_remove(0);
         (own.known[0], sizes[0])
+    }
+
+    /// Damping in proportion to stiffness does not damp the motion of a free structure as a whole, which keeps its damping of nothing while
+    /// the size of the law becomes that of the other mode.
+    #[test]
+    fn a_free_structure_has_a_mode_without_damping() {
+        let structure = chain(&[1.0, 2.0], &[0.0, 0.0], &[900.0]);
+        let wave = |n: usize, dof: usize| {
+            [1.0, -0.5][dof] * (-5e-3 * n as f64).exp() * (0.37 * n as f64).cos() + 1e-3 * n as f64
+        };
+        let run = decay(1e-2, (0..2).map(|dof| (0..400).map(|n| wave(n, dof)).collect()).collect());
+        let known = [whole(Effect::StiffnessProportional, 1e-3)];
+        let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let fit = FittedRecords { known: vec![0.2], ..FittedRecords::start(&records, &[]) };
+        let (by_damping, _) = search.by_sizes(&fit).swap_remove(1);
+        let [free, bent] = by_damping.damping[..] else { panic!("{:?}", by_damping.damping) };
+        assert!(free.abs() < 0.21 && (bent - 0.2).abs() < 1e-9, "{:?}", by_damping.damping);
     }
 
     /// What all records have in common moves every mode; one that was held before is known as well as that.
