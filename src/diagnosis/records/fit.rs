@@ -152,9 +152,7 @@ impl FitProblem<'_> {
             }
             let before = equations.left.total(unit);
             let least = (limits.least_gain * before).max(NO_GAIN * unit);
-            // Derivatives that were taken here are not to be blamed for a step that fails.
-            let attempts = if k == 0 { ATTEMPTS } else { limits.attempts };
-            let next = self.step(&best, scales, unit, (&equations, by), &mut damping, (attempts, least))?;
+            let next = self.step(&best, scales, unit, (&equations, by), &mut damping, (limits.attempts, least))?;
             let Some((next, there)) = next else { return Ok(((best, equations), k == 0)) };
             let gain = before - there.left.total(unit);
             (best, equations) = (next, there);
