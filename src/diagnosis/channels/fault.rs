@@ -67,8 +67,12 @@ impl ChannelFault {
             }
             Fault::Common(factor) => common_words(&self.channels, factor),
             Fault::Late(delay) => {
-                let when = if delay < 0.0 { "early" } else { "late" };
-                format!("{name} is recorded {} ms {when}", three_digits(1e3 * delay.abs()))
+                let size = three_digits(1e3 * delay.abs());
+                if delay < 0.0 {
+                    format!("{name} is recorded {size} ms early")
+                } else {
+                    format!("{name} is recorded {size} ms late")
+                }
             }
             Fault::Factor(factor) => {
                 let reads = if factor < 0.0 { " looks reversed and reads" } else { " reads" };
