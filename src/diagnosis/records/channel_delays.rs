@@ -13,7 +13,7 @@
 use super::data::{RecordData, RecordError, Records};
 use super::evidence::{AGREES, GAIN, information, misfit, scale};
 use super::fitted::FittedRecords;
-use super::normal_equations::{Normal, RecordDerivatives, solve};
+use super::normal_equations::{Left, Normal, RecordDerivatives, solve};
 use super::problem::{FitProblem, Free};
 use super::search::Search;
 use super::steps::Steps;
@@ -118,7 +118,7 @@ impl FitProblem<'_> {
             left: bare.left,
         };
         normal.matrix.submatrix_mut(0, 0, size, size).copy_from(&bare.matrix);
-        // Some sampling steps are as much as is believed.
+        // The prior deviation of a delay is one sampling step.
         (size..size + asked.len()).for_each(|k| normal.matrix[(k, k)] = unit);
         let parts = self.control.map(self.records.list.len(), |r| {
             let mut derivatives = self.derivatives(at, &scales, r, Steps::Fine)?;
@@ -168,7 +168,7 @@ fn gain_of(normal: &Normal, first: usize, delays: &[usize]) -> Option<(f64, Vec<
     let restricted = Normal {
         matrix: Mat::from_fn(kept.len(), kept.len(), |i, j| normal.matrix[(kept[i], kept[j])]),
         gradient: kept.iter().map(|&k| normal.gradient[k]).collect(),
-        left: super::normal_equations::Left::default(),
+        left: Left::default(),
     };
     let step = solve(&restricted, REGULAR)?;
     Some((step.expected_gain, step.change[first..].to_vec()))

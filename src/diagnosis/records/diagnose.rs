@@ -71,7 +71,12 @@ pub fn diagnose_records(
             break;
         }
         let all = channel_delays::added(delays.clone(), asked);
-        let (without, more) = searched(&records.without_delays(&all)?, excluded, control, early)?;
+        let found = records.without_delays(&all).and_then(|records| searched(&records, excluded, control, early));
+        let (without, more) = match found {
+            // What was found before stands.
+            Err(RecordError::Model { .. } | RecordError::Singular) => break,
+            other => other?,
+        };
         if left(&without) > WITHOUT_DELAYS * left(&diagnosis) {
             break;
         }
@@ -146,7 +151,11 @@ impl Search<'_> {
     ) -> Result<Vec<ChannelCorrection>, RecordError> {
         let by_size = self.climbed(bare, early)?;
         self.conclude(&by_size, diagnosis)?;
-        by_size.last.first().map_or(Ok(Vec::new()), |best| self.delays(best))
+        match by_size.last.first().map_or(Ok(Vec::new()), |best| self.delays(best)) {
+            // What was found stands whether or not delays can be asked for beside it.
+            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(Vec::new()),
+            other => other,
+        }
     }
 
     /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried
