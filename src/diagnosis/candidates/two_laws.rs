@@ -24,6 +24,8 @@ use std::convert::Infallible;
 
 /// Pairs of laws that are fitted in all parameters.
 const FITTED: usize = 8;
+/// Shapes of a pair from which it is fitted: the sum of two laws has several minima.
+const SHAPES: usize = 4;
 /// Steps of each fit.
 const STEPS: usize = 30;
 /// Step of a variable for difference quotients; friction has kinks, and the step is to see past those of single samples.
@@ -46,6 +48,11 @@ impl TwoLaws {
         let parameters = self.sources.iter().map(|s| s.parameters.len()).sum();
         bayesian_information(self.misfit, parameters, count)
     }
+
+    /// Whether it is of the same laws.
+    fn is_same(&self, other: &Self) -> bool {
+        (0..2).all(|k| self.sources[k].effect == other.sources[k].effect)
+    }
 }
 
 /// A law of fixed shape with its whitened force at unit scale.
@@ -65,30 +72,26 @@ impl PlaceData {
         let shapes: Vec<Shape> =
             laws().flat_map(|effect| self.shapes(effect)).filter(|shape| allowed(&shape.source)).collect();
         let simple = |shape: &&Shape| shape.scales && shape.source.parameters.len() == 1;
-        let mut best: Vec<TwoLaws> = Vec::new();
+        let mut found: Vec<TwoLaws> = Vec::new();
         for b in shapes.iter().filter(simple) {
             for a in &shapes {
                 let twice = a.source.effect == b.source.effect;
                 // Of two laws of one parameter each, once.
                 let seen = simple(&a) && position(a.source.effect) > position(b.source.effect);
-                let Some(pair) = (!twice && !seen).then(|| scaled(&measured, a, b)).flatten() else { continue };
-                let same = |known: &TwoLaws| (0..2).all(|k| known.sources[k].effect == pair.sources[k].effect);
-                match best.iter_mut().find(|known| same(known)) {
-                    Some(known) if known.misfit <= pair.misfit => {}
-                    Some(known) => *known = pair,
-                    None => best.push(pair),
-                }
+                found.extend((!twice && !seen).then(|| scaled(&measured, a, b)).flatten());
             }
         }
-        self.fitted(best)
+        self.fitted(found)
     }
 
-    /// The best of `pairs` fitted in all parameters, best first.
-    fn fitted(&self, mut pairs: Vec<TwoLaws>) -> Vec<TwoLaws> {
+    /// Each of the best of `pairs` as it fits best in all parameters, best first.
+    fn fitted(&self, pairs: Vec<TwoLaws>) -> Vec<TwoLaws> {
         let count = self.count();
-        pairs.sort_by(|a, b| a.score(count).total_cmp(&b.score(count)));
-        pairs.truncate(FITTED);
-        let mut fitted: Vec<TwoLaws> = pairs.iter().filter_map(|pair| self.descended(&pair.sources)).collect();
+        let fit = |shapes: Vec<TwoLaws>| {
+            let fits = shapes.iter().filter_map(|shape| self.descended(&shape.sources));
+            fits.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+        };
+        let mut fitted: Vec<TwoLaws> = starts(pairs, count).into_iter().filter_map(fit).collect();
         fitted.sort_by(|a, b| a.score(count).total_cmp(&b.score(count)));
         fitted
     }
@@ -142,6 +145,21 @@ fn position(effect: Effect) -> usize {
     Effect::ALL.iter().position(|other| *other == effect).unwrap_or(usize::MAX)
 }
 
+/// The best of `pairs`, each as the shapes from which it is fitted.
+fn starts(mut pairs: Vec<TwoLaws>, count: usize) -> Vec<Vec<TwoLaws>> {
+    pairs.sort_by(|a, b| a.score(count).total_cmp(&b.score(count)));
+    let mut starts: Vec<Vec<TwoLaws>> = Vec::new();
+    for pair in pairs {
+        if let Some(known) = starts.iter().position(|shapes| shapes[0].is_same(&pair)) {
+            starts[known].push(pair);
+        } else if starts.len() < FITTED {
+            starts.push(vec![pair]);
+        }
+    }
+    starts.iter_mut().for_each(|shapes| shapes.truncate(SHAPES));
+    starts
+}
+
 /// Both laws with the scales that leave least of `measured`, friction with its own size; none where one has an unphysical sign.
 fn scaled(measured: &[f64], a: &Shape, b: &Shape) -> Option<TwoLaws> {
     let (aa, ab, bb) = (dot(&a.force, &a.force), dot(&a.force, &b.force), dot(&b.force, &b.force));
@@ -157,8 +175,9 @@ fn scaled(measured: &[f64], a: &Shape, b: &Shape) -> Option<TwoLaws> {
     if !physical(a, s) || !physical(b, t) {
         return None;
     }
-    let misfit = dot(measured, measured) - 2.0 * (s * ma + t * mb) + s * s * aa + 2.0 * s * t * ab + t * t * bb;
-    Some(TwoLaws { sources: [times(&a.source, s), times(&b.source, t)], misfit })
+    let all = dot(measured, measured);
+    let misfit = all - 2.0 * (s * ma + t * mb) + s * s * aa + 2.0 * s * t * ab + t * t * bb;
+    (misfit < all).then(|| TwoLaws { sources: [times(&a.source, s), times(&b.source, t)], misfit })
 }
 
 /// A law whose force is `scale` times as large.

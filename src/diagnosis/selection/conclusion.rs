@@ -255,7 +255,7 @@ pub(crate) fn corrections(reference: &ReferenceModel) -> Vec<Correction> {
         parameter.is_stated().then(|| Correction {
             parameter: parameter.clone(),
             factor,
-            deviation: deviation * factor,
+            deviation: deviation * factor * updating.relative_slope(k),
         })
     };
     updating.parameters.iter().enumerate().filter_map(correction).collect()

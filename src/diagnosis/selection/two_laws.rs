@@ -5,9 +5,14 @@ use super::weighing::{Weighed, weighed};
 use crate::diagnosis::candidates::start::UnfittedSet;
 use crate::diagnosis::candidates::two_laws::TwoLaws;
 use crate::diagnosis::localisation::location::Spot;
-use crate::diagnosis::residual::data::DiagnosisError;
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
+use crate::diagnosis::residual::prediction::SEARCH;
+use crate::diagnosis::selection::fits::STEPS;
+use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{DOUBTFUL, EVIDENCE};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::updating::scales::Scales;
+use crate::diagnosis::updating::serial_correlation::evidence_against_scatter;
 use crate::effects::{Kind, Place, Source};
 use crate::math::statistics::bayesian_information;
 use std::sync::Arc;
@@ -21,6 +26,18 @@ const REGRESSED: f64 = 50.0;
 const USUAL_SHIFT: f64 = 1.5e-3;
 const USUAL_RESPONSE: f64 = 0.01;
 
+/// Scales beside which all runs are alike, and the model as far off as it may be.
+const ALIKE: Scales = Scales {
+    model: Scales::GREATEST.model,
+    known: Scales::GREATEST.known,
+    shift: 1e-4,
+    session: 1e-4,
+    response: 0.03,
+    ..Scales::SEARCH
+};
+/// Rounds in which laws and model are settled there.
+const UPDATES: usize = 6;
+
 impl<'a> ReferenceModel<'a> {
     /// Two laws at the place of the only effect of `best`, with the single laws behind them; `None` where none bring their evidence.
     pub(super) fn two_laws_for(&self, best: &Weighed<'a>) -> Result<Option<Weighed<'a>>, DiagnosisError> {
@@ -33,7 +50,12 @@ impl<'a> ReferenceModel<'a> {
         if unfitted.is_empty() {
             return Ok(None);
         }
-        let Some(two) = weighed(self.refined(unfitted)?, f64::INFINITY)? else { return Ok(None) };
+        let mut refined = self.refined(unfitted)?;
+        let alike = self.control.map(refined.len(), |k| if_possible(with_runs_alike(&refined[k])));
+        for alike in alike {
+            refined.extend(alike?);
+        }
+        let Some(two) = weighed(refined, f64::INFINITY)? else { return Ok(None) };
         let effects = &two.fits[0].effects;
         let both = effects.len() > 1 && !effects.iter().any(|e| e.effect.is_mass_or_spring());
         let gains = gains(&two, best);
@@ -72,11 +94,24 @@ impl<'a> ReferenceModel<'a> {
     }
 }
 
-/// Evidence that two laws bring beyond a single one: beside what differs from run to run, and with all runs alike, where the response
-/// is off in proportion to itself, `2 n ln(error / error)` of `n` data.
+/// A candidate with its model settled anew where runs hardly differ but by a share of their response: what differs from run to run takes
+/// over so much of what laws do that a descent beside it may have ended far from where all runs are explained alike.
+fn with_runs_alike<'a>(
+    (reference, fit): &(ReferenceModel<'a>, FittedModel),
+) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+    let updating = reference.linearisation.updating.without_force_gains_and_shifts().with_scales(ALIKE);
+    let there = reference.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;
+    let fit = there.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)?;
+    there.converged(fit, &SEARCH, UPDATES)
+}
+
+/// Evidence that two laws bring beyond a single one: beside what differs from run to run, so far as that is by chance, and with all runs
+/// alike, where the response is off in proportion to itself, `2 n ln(error / error)` of `n` data.
 fn gains(two: &Weighed, single: &Weighed) -> [f64; 2] {
     let count = two.reference.count();
-    let beside_scatter = (single.least - two.least) / scale_of(&two.fits, count);
+    let by_chance = |of: &Weighed| evidence_against_scatter(&of.reference.linearisation.updating, of.reference.data);
+    let follows = by_chance(single) - by_chance(two);
+    let beside_scatter = (single.least - two.least) / scale_of(&two.fits, count) + follows;
     [beside_scatter, 2.0 * count as f64 * (single.fits[0].error / two.fits[0].error).ln()]
 }
 

@@ -1,6 +1,7 @@
 //! What a model states wrongly, as it is told and taken over.
 
 use super::parameters::{Updating, UpdatingParameter};
+use super::size_factor;
 use crate::structure::Part;
 
 /// Deviations within which two factors are the same.
@@ -37,7 +38,8 @@ pub(crate) fn as_force_gain(corrections: &[Correction]) -> Option<Correction> {
 pub(crate) fn with_corrections(mut updating: Updating, corrections: &[Correction]) -> Updating {
     for (parameter, value) in updating.parameters.iter().zip(&mut updating.values) {
         let stated = corrections.iter().find(|c| c.parameter == *parameter);
-        *value = stated.map_or(0.0, |c| c.factor.ln());
+        let size = matches!(parameter, UpdatingParameter::Known(_));
+        *value = stated.map_or(0.0, |c| if size { size_factor::value(c.factor) } else { c.factor.ln() });
     }
     updating
 }

@@ -13,6 +13,7 @@ use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
+use crate::diagnosis::updating::size_factor;
 use crate::math::statistics::sum_of_squares;
 use crate::structure::Part;
 use std::sync::Arc;
@@ -151,7 +152,7 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
         UpdatingParameter::Structure(Part::ModeDamping(_) | Part::ModeDampingPerOctave(_)) => {
             v.abs() < LIKELY_MODE_DAMPING
         }
-        UpdatingParameter::Known(_) => v.abs() < LIKELY_SIZE,
+        UpdatingParameter::Known(_) => size_factor::factor(*v).ln().abs() < LIKELY_SIZE,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Gain(_)
         | UpdatingParameter::ForceGain(_)

@@ -17,4 +17,6 @@ pub(crate) mod part_error;
 pub(crate) mod parts;
 pub mod scales;
 pub mod scatter;
+pub(crate) mod serial_correlation;
 pub(crate) mod shape_errors;
+pub(crate) mod size_factor;

@@ -2,11 +2,13 @@
 //! estimated from the data.
 //!
 //! Models are never exact: natural frequencies are off by some per cent, known damping by tens, gains by one. Every
-//! parameter is the logarithm `v` of a factor (a delay: seconds) with the prior `N(0, s^2)`; `s` belongs to its class
-//! ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and Mottershead 1995, chapter 8).
+//! parameter is the logarithm `v` of a factor (a delay: seconds; the size of a known source: [`size_factor`]) with the prior
+//! `N(0, s^2)`; `s` belongs to its class ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and
+//! Mottershead 1995, chapter 8).
 
 use super::parts::{damped_modes, parts};
 use super::scales::Scales;
+use super::size_factor;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Effect, Place, Source};
 use crate::response::sensitivity::Unknown;
@@ -77,7 +79,7 @@ impl UpdatingParameter {
 pub struct Updating {
     /// What is updated.
     pub parameters: Vec<UpdatingParameter>,
-    /// Logarithm of the factor of each; of a delay its seconds.
+    /// Logarithm of the factor of each; of a delay its seconds, of the size of a known source as [`size_factor`] says.
     pub values: Vec<f64>,
     /// Prior deviation of each as a multiple of the scale of its class; none: one.
     pub spreads: Vec<f64>,
@@ -261,7 +263,18 @@ impl Updating {
 
     /// Factor of parameter `k`, of stiffnesses, masses and sizes, as the updated model has it.
     pub(crate) fn factor(&self, k: usize) -> f64 {
-        self.values[k].clamp(-LARGEST, LARGEST).exp()
+        match self.parameters[k] {
+            UpdatingParameter::Known(_) => size_factor::factor(self.values[k]),
+            _ => self.values[k].clamp(-LARGEST, LARGEST).exp(),
+        }
+    }
+
+    /// Derivative of the logarithm of that factor.
+    pub(crate) fn relative_slope(&self, k: usize) -> f64 {
+        match self.parameters[k] {
+            UpdatingParameter::Known(_) => size_factor::relative_slope(self.values[k]),
+            _ => 1.0,
+        }
     }
 
     /// The gains of force channels, as errors of these channels.
@@ -306,9 +319,11 @@ impl Updating {
                 unknowns
             }
             UpdatingParameter::Known(j) => {
-                let unknown_with_factor =
-                    |&parameter: &usize| (Unknown::Source { source: *j, parameter }, known[*j].parameters[parameter]);
-                known[*j].effect.scaled().iter().map(unknown_with_factor).collect()
+                let (source, slope) = (&known[*j], self.relative_slope(k));
+                let unknown_with_factor = |&parameter: &usize| {
+                    (Unknown::Source { source: *j, parameter }, slope * source.parameters[parameter])
+                };
+                source.effect.scaled().iter().map(unknown_with_factor).collect()
             }
             UpdatingParameter::Session(_) => vec![(Unknown::Stiffness, 1.0)],
             UpdatingParameter::ForceGain(name) => {
