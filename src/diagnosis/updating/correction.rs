@@ -1,7 +1,6 @@
 //! What a model states wrongly, as it is told and taken over.
 
 use super::parameters::{Updating, UpdatingParameter};
-use super::size_factor;
 use crate::structure::Part;
 
 /// Deviations within which two factors are the same.
@@ -36,10 +35,9 @@ pub(crate) fn as_force_gain(corrections: &[Correction]) -> Option<Correction> {
 
 /// The `updating` parameters at the factors of `corrections`, those without one at nothing.
 pub(crate) fn with_corrections(mut updating: Updating, corrections: &[Correction]) -> Updating {
-    for (parameter, value) in updating.parameters.iter().zip(&mut updating.values) {
-        let stated = corrections.iter().find(|c| c.parameter == *parameter);
-        let size = matches!(parameter, UpdatingParameter::Known(_));
-        *value = stated.map_or(0.0, |c| if size { size_factor::value(c.factor) } else { c.factor.ln() });
+    for k in 0..updating.len() {
+        let stated = corrections.iter().find(|c| c.parameter == updating.parameters[k]);
+        updating.values[k] = stated.map_or(0.0, |c| updating.value_of(k, c.factor));
     }
     updating
 }

@@ -13,7 +13,6 @@ use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::diagnosis::updating::size_factor;
 use crate::math::statistics::sum_of_squares;
 use crate::structure::Part;
 use std::sync::Arc;
@@ -147,12 +146,12 @@ const LIKELY_SUPPORT: f64 = 1.5;
 /// Whether no updating parameter is farther from nothing than models are wrong: else an effect may pass for a correction.
 pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
     let updating = &reference.linearisation.updating;
-    updating.parameters.iter().zip(&updating.values).all(|(parameter, v)| match parameter {
+    updating.parameters.iter().zip(&updating.values).enumerate().all(|(k, (parameter, v))| match parameter {
         UpdatingParameter::Structure(Part::Support(_)) => v.abs() < LIKELY_SUPPORT,
         UpdatingParameter::Structure(Part::ModeDamping(_) | Part::ModeDampingPerOctave(_)) => {
             v.abs() < LIKELY_MODE_DAMPING
         }
-        UpdatingParameter::Known(_) => size_factor::factor(*v).ln().abs() < LIKELY_SIZE,
+        UpdatingParameter::Known(_) => updating.factor(k).ln().abs() < LIKELY_SIZE,
         UpdatingParameter::Structure(_) => v.abs() < LIKELY,
         UpdatingParameter::Gain(_)
         | UpdatingParameter::ForceGain(_)

@@ -2,12 +2,13 @@
 //! estimated from the data.
 //!
 //! Models are never exact: natural frequencies are off by some per cent, known damping by tens, gains by one. Every
-//! parameter is the logarithm `v` of a factor (a delay: seconds; the size of a known source: [`size_factor`]) with the prior
+//! parameter is the logarithm `v` of a factor (a delay: seconds; the size of a source at a place: [`size_factor`]) with the prior
 //! `N(0, s^2)`; `s` belongs to its class ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and
 //! Mottershead 1995, chapter 8).
 
 use super::parts::{damped_modes, parts};
 use super::scales::Scales;
+#[cfg(doc)]
 use super::size_factor;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Effect, Place, Source};
@@ -21,8 +22,6 @@ const MOST_SHAPES: usize = 48;
 const SUPPORT: f64 = 2.0;
 /// Logarithm of the factor of a support that gives way as much as the element beside it.
 const GIVES_WAY: f64 = -std::f64::consts::LN_2;
-/// Largest logarithm of a factor: models are not wrong by more than a factor of seven.
-const LARGEST: f64 = 2.0;
 
 /// One updating parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,8 +78,11 @@ impl UpdatingParameter {
 pub struct Updating {
     /// What is updated.
     pub parameters: Vec<UpdatingParameter>,
-    /// Logarithm of the factor of each; of a delay its seconds, of the size of a known source as [`size_factor`] says.
+    /// Logarithm of the factor of each; of a delay its seconds, of the size of a known source that may be absent as [`size_factor`]
+    /// says.
     pub values: Vec<f64>,
+    /// Known sources that may be absent, by their numbers: those at a place. What damps the whole structure is there in some size.
+    pub may_be_absent: Vec<usize>,
     /// Prior deviation of each as a multiple of the scale of its class; none: one.
     pub spreads: Vec<f64>,
     /// Relative stiffness of each run beyond that of all, where the model is linearised; none: all alike.
@@ -100,6 +102,7 @@ impl Default for Updating {
         Self {
             parameters: Vec::new(),
             values: Vec::new(),
+            may_be_absent: Vec::new(),
             spreads: Vec::new(),
             shifts: Vec::new(),
             sessions: Vec::new(),
@@ -147,9 +150,11 @@ impl Updating {
         let logs = omegas.iter().map(|w| w.ln()).sum::<f64>() / omegas.len().max(1) as f64;
         let spreads = parameters.iter().map(spread).collect();
         let sessions = data.sessions.clone();
+        let at_place = |j: &usize| !matches!(known[*j].place, Place::Whole(_));
         Self {
             values: vec![0.0; parameters.len()],
             parameters,
+            may_be_absent: (0..known.len()).filter(at_place).collect(),
             spreads,
             sessions,
             omega: logs.exp(),
@@ -259,22 +264,6 @@ impl Updating {
     #[must_use]
     pub fn with_scales(&self, scales: Scales) -> Self {
         Self { scales, ..self.clone() }
-    }
-
-    /// Factor of parameter `k`, of stiffnesses, masses and sizes, as the updated model has it.
-    pub(crate) fn factor(&self, k: usize) -> f64 {
-        match self.parameters[k] {
-            UpdatingParameter::Known(_) => size_factor::factor(self.values[k]),
-            _ => self.values[k].clamp(-LARGEST, LARGEST).exp(),
-        }
-    }
-
-    /// Derivative of the logarithm of that factor.
-    pub(crate) fn relative_slope(&self, k: usize) -> f64 {
-        match self.parameters[k] {
-            UpdatingParameter::Known(_) => size_factor::relative_slope(self.values[k]),
-            _ => 1.0,
-        }
     }
 
     /// The gains of force channels, as errors of these channels.

@@ -10,6 +10,8 @@
 //! that is modelled as an effect then. With the logarithm of the factor its absence would be infinitely far from what is stated; here it
 //! is `1 / s` prior deviations away, and sizes stay positive. Up to some tens of per cent both are the same.
 
+use super::parameters::{Updating, UpdatingParameter};
+
 /// Factor below which it falls exponentially.
 const REST: f64 = 0.1;
 /// Largest exponent: models are not wrong by more than a factor of seven.
@@ -17,8 +19,33 @@ const LARGEST: f64 = 2.0;
 /// Least value: a share of `REST e^-4`, two thousandths, is left.
 const LEAST: f64 = -(1.0 - REST) - 4.0 * REST;
 
+impl Updating {
+    /// Factor of parameter `k`, of stiffnesses, masses and sizes, as the updated model has it.
+    pub(crate) fn factor(&self, k: usize) -> f64 {
+        if self.may_be_absent(k) {
+            return factor(self.values[k]);
+        }
+        self.values[k].clamp(-LARGEST, LARGEST).exp()
+    }
+
+    /// Derivative of the logarithm of that factor.
+    pub(crate) fn relative_slope(&self, k: usize) -> f64 {
+        if self.may_be_absent(k) { relative_slope(self.values[k]) } else { 1.0 }
+    }
+
+    /// The value of parameter `k` whose factor is `factor`.
+    pub(crate) fn value_of(&self, k: usize, factor: f64) -> f64 {
+        if self.may_be_absent(k) { value(factor) } else { factor.ln() }
+    }
+
+    /// Whether parameter `k` is the size of a source that may be absent.
+    fn may_be_absent(&self, k: usize) -> bool {
+        matches!(self.parameters[k], UpdatingParameter::Known(j) if self.may_be_absent.contains(&j))
+    }
+}
+
 /// The factor at `v`.
-pub(crate) fn factor(v: f64) -> f64 {
+fn factor(v: f64) -> f64 {
     let v = v.clamp(LEAST, LARGEST);
     if v >= 0.0 {
         v.exp()
@@ -30,12 +57,12 @@ pub(crate) fn factor(v: f64) -> f64 {
 }
 
 /// Relative derivative `f'(v) / f(v)` of the factor.
-pub(crate) fn relative_slope(v: f64) -> f64 {
+fn relative_slope(v: f64) -> f64 {
     if v >= 0.0 { 1.0 } else { 1.0 / factor(v).max(REST) }
 }
 
 /// The value whose factor is `factor`, within its bounds.
-pub(crate) fn value(factor: f64) -> f64 {
+fn value(factor: f64) -> f64 {
     if factor >= 1.0 {
         factor.ln().min(LARGEST)
     } else if factor > REST {
