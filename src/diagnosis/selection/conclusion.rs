@@ -140,9 +140,11 @@ impl Outcome<'_> {
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
         let scattered = self.found.updated && explains_by_scatter(error, diagnosis.noise_floor);
+        // Nor corrections of damping that no model needs: they stand in for what is missing.
+        let believable = reference.linearisation.updating.is_believable();
         // Nor where all motions together are turned against it by what is no scatter of runs.
         diagnosis.common_factors = reference.common_factors(&reference.predictions);
-        let enough = misfit < TOLERATED && told && !scattered && diagnosis.common_factors.is_empty();
+        let enough = misfit < TOLERATED && told && !scattered && believable && diagnosis.common_factors.is_empty();
         diagnosis.verdict = match (self.found.updated, enough) {
             (true, true) => Verdict::Detuned,
             (false, true) => Verdict::Adequate,
