@@ -261,3 +261,61 @@ impl<'a> Records<'a> {
         Ok(records)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::common::models::{source, three_masses};
+    use crate::common::runs::decay;
+    use crate::effects::Effect;
+
+    const STEP: f64 = 1e-3;
+
+    /// Displacements of three masses that ring in two modes, damped in proportion to their mass by 0.3/s; the last sensor is late by `late` s.
+    fn ringing(late: f64) -> Vec<Vec<f64>> {
+        let modes = three_masses([1.0; 3]).modes().unwrap();
+        let sample = |dof: usize, n: usize| {
+            let t = STEP * n as f64 - if dof == 2 { late } else { 0.0 };
+            let mode = |r: usize| {
+                let damped = (modes.omega[r].powi(2) - 0.15_f64.powi(2)).sqrt();
+                1e-3 * modes.shapes[(dof, r)] * (-0.15 * t).exp() * (damped * t).cos()
+            };
+            let noise = 1e-7 * (12.9 * n as f64 + 78.2 * dof as f64).sin();
+            mode(0) + mode(1) + noise
+        };
+        (0..3).map(|dof| (0..2000).map(|n| sample(dof, n)).collect()).collect()
+    }
+
+    /// Against the difference of two records that are shifted to either side, where the model is the record.
+    #[test]
+    fn the_derivative_by_a_delay_is_that_of_shifted_records() {
+        let (structure, run) = (three_masses([1.0; 3]), decay(STEP, ringing(0.0)));
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let record = &records.list[0];
+        let samples = &record.samples[2];
+        let derivative = by_delay(record, 2, &vec![0.0; samples.len()], record.step);
+        let (later, earlier) = (shifted(samples, -0.05), shifted(samples, 0.05));
+        let largest = derivative.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+        for n in 10..samples.len() - 10 {
+            let difference = (later[n] - earlier[n]) / 0.1 / record.sigma[2][n];
+            assert!((derivative[n] - difference).abs() < 0.05 * largest, "{n}: {} {difference}", derivative[n]);
+        }
+    }
+
+    /// A third of a sampling step of one sensor, beside the model as it is; of a decay, whose beginning is free, to a twentieth of a step.
+    #[test]
+    fn a_late_sensor_is_told_with_its_delay() {
+        let structure = three_masses([1.0; 3]);
+        let known: Vec<_> = (0..3).map(|dof| source(Effect::Viscous, &[dof], &[0.3])).collect();
+        let (run, control) = (decay(STEP, ringing(STEP / 3.0)), Control::unattended());
+        let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.whole();
+        let problem = FitProblem { records: whole, free: Free::all(whole), share: 1.0, control: &control };
+        let fit = problem.improve(&FittedRecords::start(whole, &[]), 20).unwrap();
+        let delays = search.delays(&fit).unwrap();
+        let [ChannelCorrection { channel, delay, .. }] = &delays[..] else { panic!("{delays:?}") };
+        assert!(channel.dof == 2 && (delay / (STEP / 3.0) - 1.0).abs() < 0.2, "{delays:?}");
+    }
+}

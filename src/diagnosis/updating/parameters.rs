@@ -2,14 +2,12 @@
 //! estimated from the data.
 //!
 //! Models are never exact: natural frequencies are off by some per cent, known damping by tens, gains by one. Every
-//! parameter is the logarithm `v` of a factor (a delay: seconds; the size of a source at a place: [`size_factor`]) with the prior
+//! parameter is the logarithm `v` of a factor (a delay: seconds; the size of a source at a place: `size_factor`) with the prior
 //! `N(0, s^2)`; `s` belongs to its class ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and
 //! Mottershead 1995, chapter 8).
 
 use super::parts::{damped_modes, parts};
 use super::scales::Scales;
-#[cfg(doc)]
-use super::size_factor;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Effect, Place, Source};
 use crate::response::sensitivity::Unknown;
@@ -78,7 +76,7 @@ impl UpdatingParameter {
 pub struct Updating {
     /// What is updated.
     pub parameters: Vec<UpdatingParameter>,
-    /// Logarithm of the factor of each; of a delay its seconds, of the size of a known source that may be absent as [`size_factor`]
+    /// Logarithm of the factor of each; of a delay its seconds, of the size of a known source that may be absent as `size_factor`
     /// says.
     pub values: Vec<f64>,
     /// Known sources that may be absent, by their numbers: those at a place. What damps the whole structure is there in some size.
