@@ -24,7 +24,8 @@ use std::convert::Infallible;
 
 /// Pairs of laws that are fitted in all parameters.
 const FITTED: usize = 8;
-/// Shapes of a pair from which it is fitted: the sum of two laws has several minima.
+/// Shapes of a pair from which it is fitted: the sum of two laws has several minima, and of a measured bolted beam on three levels only the
+/// third best shape led to the least.
 const SHAPES: usize = 4;
 /// Steps of each fit.
 const STEPS: usize = 30;

@@ -1,4 +1,5 @@
-//! Factor on the size of a known source as a function of its updating parameter `v`:
+//! Factors of updating parameters: of stiffnesses and masses `e^v`, of the size of a known source that may be absent, as a function of its
+//! parameter `v`,
 //!
 //! ```text
 //! f(v) = e^v             v >= 0
@@ -8,11 +9,11 @@
 //!
 //! A source may be stated that is not there: damping that was measured at small amplitudes, or as that of a mode, is often all of a joint
 //! that is modelled as an effect then. With the logarithm of the factor its absence would be infinitely far from what is stated; here it
-//! is `1 / s` prior deviations away, and sizes stay positive. Up to some tens of per cent both are the same.
+//! is about `1 / s` prior deviations away, and sizes stay positive. Within a tenth both are the same to half a per cent.
 
 use super::parameters::{Updating, UpdatingParameter};
 
-/// Factor below which it falls exponentially.
+/// Factor below which it falls exponentially: what is left then damps next to nothing, and any small one does.
 const REST: f64 = 0.1;
 /// Largest exponent: models are not wrong by more than a factor of seven.
 const LARGEST: f64 = 2.0;
@@ -22,7 +23,7 @@ const LEAST: f64 = -(1.0 - REST) - 4.0 * REST;
 impl Updating {
     /// Factor of parameter `k`, of stiffnesses, masses and sizes, as the updated model has it.
     pub(crate) fn factor(&self, k: usize) -> f64 {
-        if self.may_be_absent(k) {
+        if self.size_may_vanish(k) {
             return factor(self.values[k]);
         }
         self.values[k].clamp(-LARGEST, LARGEST).exp()
@@ -30,16 +31,16 @@ impl Updating {
 
     /// Derivative of the logarithm of that factor.
     pub(crate) fn relative_slope(&self, k: usize) -> f64 {
-        if self.may_be_absent(k) { relative_slope(self.values[k]) } else { 1.0 }
+        if self.size_may_vanish(k) { relative_slope(self.values[k]) } else { 1.0 }
     }
 
     /// The value of parameter `k` whose factor is `factor`.
     pub(crate) fn value_of(&self, k: usize, factor: f64) -> f64 {
-        if self.may_be_absent(k) { value(factor) } else { factor.ln() }
+        if self.size_may_vanish(k) { value(factor) } else { factor.ln() }
     }
 
     /// Whether parameter `k` is the size of a source that may be absent.
-    fn may_be_absent(&self, k: usize) -> bool {
+    fn size_may_vanish(&self, k: usize) -> bool {
         matches!(self.parameters[k], UpdatingParameter::Known(j) if self.may_be_absent.contains(&j))
     }
 }
