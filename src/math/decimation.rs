@@ -19,7 +19,7 @@ pub(crate) fn low_pass(half: usize, cut: f64) -> Vec<f64> {
         let x = k as f64 - half as f64;
         let t = 2.0 * cut * x;
         let sinc = if x == 0.0 { 1.0 } else { (PI * t).sin() / (PI * t) };
-        sinc * bessel(BETA * (1.0 - (x / half as f64).powi(2)).max(0.0).sqrt())
+        sinc * kaiser(BETA, x / half as f64)
     };
     let weights: Vec<f64> = (0..=2 * half).map(weight).collect();
     let sum: f64 = weights.iter().sum();
@@ -38,6 +38,11 @@ pub(crate) fn decimated(signal: &[f64], factor: usize) -> Vec<f64> {
     let weights = low_pass(half, CUT / factor as f64);
     let filtered_sample = |n: usize| weights.iter().zip(&signal[n - half..=n + half]).map(|(w, y)| w * y).sum();
     kept(signal.len(), factor).map(filtered_sample).collect()
+}
+
+/// Kaiser's window of a shape at a share of its half length, not scaled.
+pub(super) fn kaiser(beta: f64, share: f64) -> f64 {
+    bessel(beta * (1.0 - share * share).max(0.0).sqrt())
 }
 
 /// Modified Bessel function of the first kind, order zero.

@@ -4,6 +4,7 @@ pub(crate) mod bootstrap;
 pub(crate) mod decimation;
 pub mod eigen;
 pub(crate) mod fill;
+pub(crate) mod fractional_delay;
 pub(crate) mod hermitian;
 pub mod least_squares;
 pub mod nnls;

@@ -45,7 +45,6 @@ pub use ratio::MeasuredRatio;
 pub use record::{Record, RecordError};
 pub use run::{Amplitudes, ChannelCorrection, Run};
 pub use transient_correction::TransientRunError;
-pub(crate) use transient_correction::shifted;
 pub use transient_run::{TransientLabel, TransientRun};
 pub use whole_functions::{WholeFunction, WholeFunctions};
 pub(crate) use zero::without_zero;

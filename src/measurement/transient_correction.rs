@@ -1,7 +1,7 @@
 //! From a record to a run that is not in steady state: its channels corrected for their known errors.
 //!
-//! A channel with known delay `tau` and gain `g` records `g y(t - tau)`; the run holds `y`, read between the samples by a
-//! polynomial through six of them (error below 1e-3 of the amplitude up to a fifth of the sampling rate).
+//! A channel with known delay `tau` and gain `g` records `g y(t - tau)`; the run holds `y`, read between the samples (error below 1e-3 of
+//! the amplitude up to two fifths of the sampling rate).
 
 use super::channel::{Channel, Quantity};
 use super::even_steps::{evened, off_even};
@@ -12,14 +12,12 @@ use super::record::Record;
 use super::run::ChannelCorrection;
 use super::transient_quality;
 use super::transient_run::{TransientLabel, TransientRun};
-use std::borrow::Cow;
+use crate::math::fractional_delay::shifted;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Fewest samples of a part.
 pub(super) const FEWEST_SAMPLES: usize = 32;
-/// Points of the polynomial between the samples.
-const POINTS: usize = 6;
 
 /// Why a record makes no transient run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -145,24 +143,6 @@ fn windowed(run: &TransientRun, constant: f64) -> Finding {
         (last / constant).exp()
     );
     Finding::of_record(Flag::ExponentialWindow, reason)
-}
-
-/// `y(n + shift)` between the samples; beyond the ends the last polynomial goes on for no more than the shift.
-pub(crate) fn shifted(samples: &[f64], shift: f64) -> Cow<'_, [f64]> {
-    if shift == 0.0 {
-        return Cow::Borrowed(samples);
-    }
-    let last = samples.len() - 1;
-    let sample = |n: usize| {
-        let x = (n as f64 + shift).clamp(0.0, last as f64);
-        let first = (x.floor() as usize).saturating_sub(POINTS / 2 - 1).min((last + 1).saturating_sub(POINTS));
-        let points = first..(first + POINTS).min(last + 1);
-        let weight = |i: usize| {
-            points.clone().filter(|&j| j != i).map(|j| (x - j as f64) / (i as f64 - j as f64)).product::<f64>()
-        };
-        points.clone().map(|i| weight(i) * samples[i]).sum()
-    };
-    Cow::Owned((0..samples.len()).map(sample).collect())
 }
 
 #[cfg(test)]
