@@ -27,6 +27,10 @@ const LONG: usize = 10;
 const LONGEST_PART: usize = 1 << 20;
 /// Share of the power on the largest lines from which a signal is periodic.
 const PERIODIC: f64 = 0.8;
+/// Periods of a record below which the lines about multiples of one frequency are most of its spectrum.
+const FEW_PERIODS: usize = 16;
+/// Times by which a signal is shifted to find its period.
+const LAGS: usize = 200;
 
 /// What a record looks like.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +93,6 @@ fn released(record: &Record, motion: &[f64], first_sample: impl Fn(usize) -> usi
 
 /// Whether a drive holds these blocks: none falls far below the `largest`, and they fall no more than chance has it.
 fn is_even(motion: &[f64], largest: f64) -> bool {
-    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let steady = || mean(&motion[1..motion.len() / 2]) < NO_TREND * mean(&motion[motion.len() / 2..]);
     motion.len() >= LONG && motion[1..].iter().all(|m| *m > DRIVEN * largest) && steady()
 }
@@ -165,10 +168,32 @@ fn concentration(record: &Record, channel: usize) -> f64 {
     let power: Vec<f64> = spectrum.amplitude.iter().map(|a| a * a).collect();
     let Some(top) = (1..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])) else { return 0.0 };
     let total: f64 = power[1..].iter().sum();
+    if top < FEW_PERIODS {
+        return repeated(record.samples(channel), top);
+    }
     // At a multiple the frequency is known that much worse.
     let near = |k: usize| (1..=7).any(|h| (k as f64 - (h * top) as f64).abs() <= 2.0 + 0.5 * (h - 1) as f64);
     let lines: f64 = (1..power.len()).filter(|&k| near(k)).map(|k| power[k]).sum();
     if total > 0.0 { lines / total } else { 0.0 }
+}
+
+/// Share of the power of a signal of about so many periods that it repeats a period later: squared correlation of both.
+fn repeated(samples: &[f64], periods: usize) -> f64 {
+    let lag = |periods: f64| (samples.len() as f64 / periods).round() as usize;
+    let (shortest, longest) = (lag(periods as f64 + 0.5), lag(periods as f64 - 0.5).min(samples.len() / 2));
+    let step = ((longest.saturating_sub(shortest)) / LAGS).max(1);
+    let correlation = |lag: usize| {
+        let (earlier, later) = (&samples[..samples.len() - lag], &samples[lag..]);
+        let (a, b) = (mean(earlier), mean(later));
+        let sum = |x: &[f64], y: &[f64], a: f64, b: f64| x.iter().zip(y).map(|(x, y)| (x - a) * (y - b)).sum::<f64>();
+        let size = (sum(earlier, earlier, a, a) * sum(later, later, b, b)).sqrt();
+        if size > 0.0 { sum(earlier, later, a, b) / size } else { 0.0 }
+    };
+    (shortest..=longest).step_by(step).map(correlation).fold(0.0, f64::max).powi(2)
+}
+
+fn mean(samples: &[f64]) -> f64 {
+    samples.iter().sum::<f64>() / samples.len().max(1) as f64
 }
 
 /// Largest root mean square over the channels of a kind in each block, each channel less its mean at the end and over its
@@ -178,7 +203,7 @@ fn envelope(record: &Record, wanted: impl Fn(Quantity) -> bool) -> Vec<f64> {
     for c in (0..record.channels().len()).filter(|&c| wanted(record.channels()[c].quantity)) {
         let samples = record.samples(c);
         let tail = &samples[samples.len() - (samples.len() / 20).max(1)..];
-        let mean = tail.iter().sum::<f64>() / tail.len() as f64;
+        let mean = mean(tail);
         let largest = samples.iter().fold(0.0_f64, |m, y| m.max((y - mean).abs()));
         if largest == 0.0 {
             continue;
@@ -225,6 +250,20 @@ mod tests {
         let samples = (0..2).map(|c| base.samples(c).to_vec()).collect();
         base = Record::new(base.time().to_vec(), channels, samples).unwrap();
         let proposal = propose(&base);
+        assert_eq!(proposal.kind, Kind::Transient, "{}", proposal.reason);
+    }
+
+    /// A few periods of a sine repeat themselves; as many strokes of a drive, each of another length and speed, do not.
+    #[test]
+    fn a_few_strokes_are_no_periods() {
+        let sine = |t: f64| (TAU * t).sin();
+        assert_eq!(propose(&record(Some(&sine), &sine)).kind, Kind::Steady);
+        let strokes = [(0.0, 0.9, 1.0), (0.9, 0.5, -1.0), (1.4, 1.2, 0.4), (2.6, 0.4, -0.7), (3.0, 1.0, 0.5)];
+        let force = |t: f64| {
+            let stroke = strokes.iter().find(|(from, length, _)| (0.0..*length).contains(&(t - from)));
+            stroke.map_or(0.0, |(from, length, size)| size * (TAU * (t - from) / length).sin())
+        };
+        let proposal = propose(&record(Some(&force), &sine));
         assert_eq!(proposal.kind, Kind::Transient, "{}", proposal.reason);
     }
 

@@ -8,6 +8,7 @@ use super::proposal::propose;
 use super::transient_run::TransientRun;
 use super::zero::zeros;
 use crate::math::spectrum::Spectrum;
+use std::ops::Range;
 
 /// Root mean square at the end over the largest from which a decay is cut off.
 const CUT: f64 = 0.2;
@@ -15,6 +16,8 @@ const CUT: f64 = 0.2;
 const OUT_OF_BAND: f64 = 0.05;
 /// Equal samples at an end of the range that are no chance.
 const CLIPPED: usize = 4;
+/// Share of the largest sample that is cut off at least: less is a round top, or a body at rest, that a converter shows as equal samples.
+const CUT_OFF: f64 = 0.005;
 /// Share of the largest force by which its samples on either side of two equal ones differ at least: a round top of two equal samples has
 /// equal neighbours.
 const UNEVEN: f64 = 0.02;
@@ -83,17 +86,42 @@ fn hammer(run: &TransientRun) -> Vec<Finding> {
 fn clipped(run: &TransientRun, c: usize) -> Option<Finding> {
     let samples = run.samples(c);
     let most = samples.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-    let at_end = |y: &f64| y.abs() == most && most > 0.0;
-    let longest = samples.split(|y| !at_end(y)).map(<[f64]>::len).max().unwrap_or(0);
-    let blow = run.channels()[c].quantity == Quantity::Force && longest > 1 && is_blow(samples);
-    (longest >= CLIPPED || (blow && has_flat_top(samples, most))).then(|| {
+    let longest = longest_stay(samples, most);
+    let is_blow = run.channels()[c].quantity == Quantity::Force && longest.len() > 1 && is_blow(samples);
+    let is_cut = longest.len() >= CLIPPED && cut_off(samples, &longest) > CUT_OFF * most;
+    (is_cut || (is_blow && has_flat_top(samples, most))).then(|| {
         let channel = &run.channels()[c];
+        let longest = longest.len();
         Finding::of_channel(
             Flag::Clipped,
             channel,
             format!("{longest} samples of {channel} in a row stand at {most:.4e} (SI units), the end of its range"),
         )
     })
+}
+
+/// The most samples in a row of size `most`.
+fn longest_stay(samples: &[f64], most: f64) -> Range<usize> {
+    let mut longest = 0..0;
+    let mut first = 0;
+    for n in 0..samples.len() {
+        if samples[n].abs() != most || most == 0.0 {
+            first = n + 1;
+        } else if n + 1 - first > longest.len() {
+            longest = first..n + 1;
+        }
+    }
+    longest
+}
+
+/// What a parabola that enters and leaves such a row as the signal does would show above it: none of a body that comes to rest there.
+fn cut_off(samples: &[f64], stay: &Range<usize>) -> f64 {
+    let slope = |inside: usize, outside: Option<usize>| {
+        outside.and_then(|n| samples.get(n)).map_or(f64::INFINITY, |y| (samples[inside] - y).abs() / 2.0)
+    };
+    let (entered, left) = (slope(stay.start, stay.start.checked_sub(2)), slope(stay.end - 1, Some(stay.end + 1)));
+    let known = [entered, left].into_iter().filter(|slope| slope.is_finite());
+    known.reduce(f64::max).unwrap_or(f64::INFINITY) * stay.len() as f64 / 4.0
 }
 
 /// Whether a contact of a few samples has a flat top: equal samples at `most` between neighbours that are not equal.
