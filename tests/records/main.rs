@@ -7,6 +7,7 @@ mod common;
 mod complete;
 mod diagnose;
 mod measured;
+mod motor_drive;
 mod prediction;
 mod spectrum;
 mod structural_damping;

@@ -136,7 +136,7 @@ pub(crate) fn started_from(
 
 /// `start` with the initial states that the first periods of the records show, before a model that is off has lost the phase; those
 /// of a nonlinear model begin with what its linear part shows, for friction may hold a start at rest fast, or as they are, for a
-/// linear part is bent to what a law does under a blow: whichever ends nearer.
+/// linear part is bent to what a law does under a blow, or, of a body that floats, at rest where it lies: whichever ends nearest.
 pub(super) fn first_states(
     records: &Records,
     start: FittedRecords,
@@ -158,14 +158,22 @@ pub(super) fn first_states(
         known: kept.iter().map(|&k| fitted.known[k]).collect(),
         ..fitted.clone()
     };
+    let at_rest = records.floats().then(|| FittedRecords { initial: records.at_rest(), ..fitted.clone() });
     let as_it_is = fit(records, &fitted);
     if let Ok(bare) = fit(&plain, &bare) {
         fitted.initial = bare.initial;
     }
-    match (as_it_is, fit(records, &fitted)) {
-        (Ok(one), Ok(other)) => Ok(if one.chi_square < other.chi_square { one } else { other }),
-        (one, other) => one.or(other),
-    }
+    let nearer = |one, other| match (one, other) {
+        (Ok(one), Ok(other)) => Ok(nearer_of(one, other)),
+        (one, other) => Result::or(one, other),
+    };
+    let found = nearer(as_it_is, fit(records, &fitted));
+    at_rest.into_iter().map(|start| fit(records, &start)).fold(found, nearer)
+}
+
+/// The fit that leaves less.
+fn nearer_of(one: FittedRecords, other: FittedRecords) -> FittedRecords {
+    if one.chi_square < other.chi_square { one } else { other }
 }
 
 /// Share of every record that holds the first periods: two of its dominant motion, one and a half of the lowest mode.

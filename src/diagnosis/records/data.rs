@@ -3,7 +3,7 @@
 use super::channel_noise::under_forces;
 use super::frequencies::Motions;
 use super::part_directions::PartDirections;
-use super::weights::{deviations, with_share};
+use super::weights::{SHARE, SHARE_OF_ONE, deviations, with_share};
 use crate::control::Cancelled;
 use crate::effects::{Kind as EffectKind, Source, State};
 use crate::math::statistics::mean;
@@ -188,12 +188,13 @@ impl<'a> Records<'a> {
     /// records, over the noise, `[record][channel][sample]`), and by the share of the motion by which any model is wrong.
     pub(crate) fn weighted(&self, residual: &[Vec<Vec<f64>>]) -> Self {
         let mut weighted = self.clone();
+        let share = if self.has_one_shape() { SHARE_OF_ONE } else { SHARE };
         for (record, left) in weighted.list.iter_mut().zip(residual) {
             let in_units = |(e, sigma): (&Vec<f64>, &Vec<f64>)| e.iter().zip(sigma).map(|(e, s)| e * s).collect();
             let left: Vec<Vec<f64>> = left.iter().zip(&record.sigma).map(in_units).collect();
             let half = (1.0 / (record.dominant_hz * record.step)).ceil() as usize;
             let above = self.deviations(record, &left);
-            record.sigma = above.iter().zip(&record.samples).map(|(s, y)| with_share(s, y, half)).collect();
+            record.sigma = above.iter().zip(&record.samples).map(|(s, y)| with_share(share, s, y, half)).collect();
         }
         weighted
     }

@@ -43,8 +43,7 @@ const WORTH_OF_CONSTANT: f64 = 0.5;
 const DECISIVE: f64 = 0.25;
 /// Share of the error of a set, of records of few modes, that decides by itself.
 const GREAT: f64 = 0.3;
-/// Rounds and steps of a fit with one effect less, and of one on a part of the records.
-const PRUNING: [usize; 2] = [2, 3];
+/// Rounds and steps of a fit on a part of the records.
 const LEARNING: [usize; 2] = [2, 3];
 /// Deviations from zero that the force of an effect must have.
 const SURE: f64 = 3.0;
@@ -214,8 +213,16 @@ impl Search<'_> {
             }
             let mut found = self.beside_rivals(level, &by_size.last, bare)?;
             let Some(better) = self.first_better(level, &found, best)? else { break };
-            let top = self.pruned(level, &found.remove(better))?;
+            let mut top = self.pruned(level, &found.remove(better))?;
+            let corrected = self.as_correction(level, &top)?;
+            // Nothing was added then: another turn would find the same.
+            let is_correction = corrected.is_some();
+            top = corrected.unwrap_or(top);
             found.insert(0, top);
+            if is_correction {
+                by_size.last = found;
+                break;
+            }
             early(&suggestions(&self.levels[level], &found, self.control.is_late())?);
             by_size.earlier.push((level, best.clone()));
             by_size.last = found;
@@ -253,39 +260,25 @@ impl Search<'_> {
         if level + 1 == self.levels.len() && !stands_out(new) {
             return Ok(false);
         }
+        // Corrections beyond what is believed are what an effect does, where it explains as much with corrections that may be.
+        let constant = adds_constant(new);
+        if misfit(old) < AGREES && is_strained(old) && !is_strained(new) && !constant && gain > 0.0 {
+            return Ok(true);
+        }
         // In the few amplitudes of short parts samples are so alike that a great part of the error of a set must do.
         let great = self.records.kept <= FEW_MODES && !old.effects.is_empty() && worth > GREAT;
         if gain < GAIN && !great {
             return Ok(false);
         }
-        let constant = adds_constant(new);
         // Both leave no more than noise: what is known of the corrections decides, where they tell much. A mass or spring would be one
         // of them.
         if misfit(old) < AGREES {
-            return Ok(!constant && (gain > NEEDLESS || is_strained(old) && !is_strained(new)));
+            return Ok(!constant && gain > NEEDLESS);
         }
         if worth < if constant { WORTH_OF_CONSTANT } else { WORTH } {
             return Ok(false);
         }
         Ok(misfit(new) < AGREES || worth > DECISIVE || self.held_out(level, new)? < self.held_out(level, old)?)
-    }
-
-    /// A fit without those of its earlier effects that the last one has made needless.
-    fn pruned(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
-        let mut best = fit.clone();
-        for k in (0..fit.effects.len().saturating_sub(1)).rev() {
-            let mut fewer = best.clone();
-            fewer.effects.remove(k);
-            let refitted = match self.fit(level, &fewer, 1.0, PRUNING) {
-                Err(RecordError::Model { .. } | RecordError::Singular) => continue,
-                other => other?,
-            };
-            let unit = scale(&best);
-            if evidence(&refitted, unit) < evidence(&best, unit) {
-                best = refitted;
-            }
-        }
-        Ok(best)
     }
 
     /// Error on the last part of each record of a fit on the rest.

@@ -12,6 +12,8 @@ pub(super) const GAIN: f64 = 12.0;
 /// Periods of the dominant motion over which the error of a model stays alike: with 3 parameters of the development projects
 /// (laboratory records, seeds 0 to 7) scatter by 1.2 of what is told, with 1 by 1.7.
 const PERIODS: f64 = 3.0;
+/// The same of a body that floats, which is moved anew with every stroke.
+const PERIODS_FLOATING: f64 = 0.25;
 
 /// Squared residual a sample, over the noise.
 pub(super) fn misfit(fit: &FittedRecords) -> f64 {
@@ -46,9 +48,10 @@ pub(super) fn scale(fit: &FittedRecords) -> f64 {
 /// error of a model stays what it is over some periods of the motion.
 pub(super) fn alike(records: &Records, share: f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
+    let alike = if records.floats() { PERIODS_FLOATING } else { PERIODS };
     for record in &records.list {
         let used = ((share * record.len() as f64) as usize).max(1);
-        let periods = (PERIODS / (record.dominant_hz * record.step)).max(1.0);
+        let periods = (alike / (record.dominant_hz * record.step)).max(1.0);
         for (sigma, noise) in record.sigma.iter().zip(&record.noise) {
             let of_model = |s: &f64| 1.0 - (noise / s).powi(2).min(1.0);
             sum += periods * sigma.iter().take(used).map(of_model).sum::<f64>();

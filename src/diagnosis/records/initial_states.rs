@@ -6,6 +6,13 @@ use super::fitted::FittedRecords;
 use super::search::Search;
 use crate::balance::windows::motion::Motion;
 use crate::control::Control;
+use crate::measurement::Quantity;
+use dashpot_numerics::Cholesky;
+use faer::Mat;
+use std::f64::consts::TAU;
+
+/// Share of the frequency of the motion below which that of a mode is none.
+const RIGID: f64 = 1e-3;
 
 /// Share of each part of the records that is fitted first where the phase is lost.
 const FIRST: f64 = 0.35;
@@ -31,6 +38,41 @@ fn measured_state(motions: &[(usize, Motion)], record: &RecordData, kept: usize)
         state[kept + mode] = motion.v[r][sample] / motion.band.omega[r];
     }
     Some(state)
+}
+
+impl Records<'_> {
+    /// Whether the motion is mostly that of a rigid body, which no spring brings back.
+    pub(super) fn floats(&self) -> bool {
+        let omega = TAU * self.list[0].dominant_hz;
+        let off = |r: &usize| (self.modes.omega[*r] - omega).abs();
+        let nearest = (0..self.kept).min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.is_some_and(|r| self.is_rigid(r, omega))
+    }
+
+    fn is_rigid(&self, mode: usize, omega: f64) -> bool {
+        self.modes.omega[mode] < RIGID * omega
+    }
+
+    /// States in which the records begin at rest where their displacements show the rigid body to lie; at zero where there are none.
+    pub(super) fn at_rest(&self) -> Vec<Vec<f64>> {
+        let state_of_record = |record: &RecordData| {
+            let omega = TAU * record.dominant_hz;
+            let rigid: Vec<usize> = (0..self.kept).filter(|r| self.is_rigid(*r, omega)).collect();
+            let shown = (0..record.channels.len()).filter(|&c| record.channels[c].quantity == Quantity::Displacement);
+            let shown: Vec<usize> = shown.collect();
+            let shape = |c: usize, r: usize| self.modes.shapes[(record.channels[shown[c]].dof, rigid[r])];
+            let mut state = vec![0.0; 2 * self.kept];
+            let rows = Mat::from_fn(shown.len(), rigid.len(), shape);
+            let first = Mat::from_fn(shown.len(), 1, |c, _| record.samples[shown[c]][0]);
+            let products = rows.transpose() * &rows;
+            if let Some(lies) = Cholesky::new(products.as_ref()).map(|p| p.solve((rows.transpose() * &first).as_ref()))
+            {
+                rigid.iter().enumerate().for_each(|(k, &r)| state[r] = lies[(k, 0)]);
+            }
+            state
+        };
+        self.list.iter().map(state_of_record).collect()
+    }
 }
 
 impl Search<'_> {
@@ -84,6 +126,25 @@ mod tests {
     use crate::common::models::chain;
     use crate::common::runs::decay;
     use crate::effects::{Effect, Place, Source};
+
+    /// Two carriages that are coupled stiffly and driven slowly to and fro float, and begin at rest where their sensors show them; held by
+    /// a spring to the ground they do not float.
+    #[test]
+    fn carriages_begin_where_they_lie() {
+        let stroke = |n: usize| 0.1 + 0.05 * (2e-3 * n as f64).cos();
+        let run = decay(1e-3, vec![(0..8000).map(stroke).collect(), (0..8000).map(stroke).collect()]);
+        let begins_at = |ground: f64| {
+            let structure = chain(&[2.0, 1.0], &[ground, 0.0], &[1500.0]);
+            let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+            let state = records.at_rest().swap_remove(0);
+            assert!(state[records.kept..].iter().all(|v| *v == 0.0));
+            let shown = |dof: usize| (0..records.kept).map(|r| records.modes.shapes[(dof, r)] * state[r]).sum::<f64>();
+            (records.floats(), [shown(0), shown(1)].map(|x| x - records.list[0].samples[0][0]))
+        };
+        let (floats, off) = begins_at(0.0);
+        assert!(floats && off.iter().all(|x| x.abs() < 1e-9), "{floats} {off:?}");
+        assert!(!begins_at(800.0).0);
+    }
 
     /// The state at any sample of a free motion in both modes is that of the modes.
     #[test]

@@ -6,6 +6,7 @@
 //! amplitude are read by one estimator from record and model ([`amplitude`]).
 
 pub mod amplitude;
+mod backward_elimination;
 mod channel_delays;
 pub(crate) mod channel_noise;
 mod chord_steps;
@@ -24,6 +25,7 @@ mod fit_motion;
 mod fitted;
 mod force_noise;
 mod free_force;
+mod freed_corrections;
 mod frequencies;
 mod generalisations;
 mod initial_states;
@@ -56,6 +58,7 @@ mod single_change;
 pub mod spectrum;
 mod starts;
 mod stated_fit;
+mod stated_sizes;
 mod steps;
 mod suggestions;
 mod supports;

@@ -9,8 +9,10 @@ use super::data::{RecordData, Records};
 use super::evidence::alike;
 use super::weights::local;
 
-/// Periods of the dominant motion in the shortest segments.
+/// Periods of the dominant motion in the shortest segments, and in those of a body that floats: no spring brings it back, so that an error
+/// of the force moves it by the square of the time.
 const PERIODS: f64 = 8.0;
+const PERIODS_FLOATING: f64 = 0.25;
 /// Least length of a segment, as a share of that many periods of the dominant motion: two periods hold its amplitude and its damping.
 const LEAST_SHARE: f64 = 0.25;
 /// Ratio of the lengths of segments from one level to the next.
@@ -38,7 +40,7 @@ impl Records<'_> {
     /// The records in segments of growing length, at last whole.
     pub(super) fn levels(&self) -> Vec<Self> {
         let mut levels = Vec::new();
-        let mut periods = PERIODS;
+        let mut periods = if self.floats() { PERIODS_FLOATING } else { PERIODS };
         while let Some(segments) = self.in_segments(periods) {
             levels.push(segments.with_enough_samples());
             periods *= GROWTH;

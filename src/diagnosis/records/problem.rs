@@ -49,12 +49,14 @@ impl Free {
         free
     }
 
-    /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not.
+    /// All of it; the mass, beside the stiffness, stands for the gain of a measured force, where errors of the shapes do not, and for
+    /// the error of a single shape.
     pub(super) fn all(records: &Records) -> Self {
         let mut corrections = vec![true; 2 + records.sizes() + modes(records) + records.parts.len()];
+        let by_mass = records.has_one_shape();
         let driven = records.list.iter().any(RecordData::shows_mass);
-        corrections[1 + records.sizes() + modes(records)] = driven && !records.parts.is_empty();
-        Self { corrections, shifts: true, shapes: true, effects: true }
+        corrections[1 + records.sizes() + modes(records)] = by_mass || (driven && !records.parts.is_empty());
+        Self { corrections, shifts: true, shapes: !by_mass, effects: true }
     }
 }
 
@@ -90,6 +92,11 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
 pub(super) fn cost_of_damping(v: f64) -> f64 {
     let square = (v / PRIORS[1]).powi(2);
     if v < 0.0 { TAIL * (square / TAIL).ln_1p() } else { square }
+}
+
+/// What the prior takes for the logarithm of the factor on the size of a known source.
+pub(super) fn cost_of_size(v: f64) -> f64 {
+    (v / PRIORS[1]).powi(2)
 }
 
 /// The deviation of a normal distribution of the same slope.

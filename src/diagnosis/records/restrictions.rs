@@ -117,7 +117,7 @@ impl<'a> Restrictions<'a> {
 }
 
 fn problem<'a>(search: &'a Search<'_>, corrections: Vec<bool>) -> FitProblem<'a> {
-    let free = Free { corrections, shifts: true, shapes: true, effects: false };
+    let free = Free { corrections, shifts: true, shapes: !search.whole().has_one_shape(), effects: false };
     FitProblem { records: search.whole(), free, share: 1.0, control: search.control }
 }
 

@@ -27,8 +27,6 @@ const LONGEST: usize = 6;
 const STILL: f64 = 0.9;
 /// Steps with all derivatives.
 const NEWTON: usize = 6;
-/// The same of the fit whose corrections are freed.
-const FREEING: [usize; 2] = [2, 6];
 /// Of the fits that are begun as neighbours of those that are there as many are followed: the others say much the same, and each costs
 /// four times its beginning.
 const FOLLOWED_BESIDE: usize = 3;
@@ -49,7 +47,7 @@ const BEGUN: usize = 28;
 /// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
 /// first steps, and on longer parts.
 pub(super) const HOPELESS: [f64; 2] = [12.0, 3.0];
-const NOISE: f64 = 0.5;
+pub(super) const NOISE: f64 = 0.5;
 
 /// The search for what is missing in some records.
 pub(super) struct Search<'a> {
@@ -309,24 +307,8 @@ impl Search<'_> {
             found = self.with_begun(level, found, &elsewhere)?;
         }
         let found = self.moved_along(level, found)?;
-        if level + 1 == self.levels.len() { self.with_best_freed(level, found) } else { Ok(found) }
-    }
-
-    /// Fits, best first, the first of them begun once more with corrections that are free ([`FitProblem::freed`]) where it leaves more than
-    /// noise: on the way to it the corrections were held by all that was left.
-    fn with_best_freed(&self, level: usize, mut found: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
-        let Some(best) = found.first().filter(|f| misfit(f) > AGREES && !self.control.is_late()) else {
-            return Ok(found);
-        };
-        let freed = match self.problem(level, 1.0).freed(best, FREEING) {
-            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(found),
-            other => other?,
-        };
-        let unit = scale(best).min(scale(&freed));
-        if evidence(&freed, unit) < evidence(best, unit) {
-            found[0] = freed;
-        }
-        Ok(self.sorted(level, found))
+        let freed = level + 1 == self.levels.len() || self.records.kept == 1;
+        if freed { self.with_best_freed(level, found) } else { Ok(found) }
     }
 
     /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is pruned.
@@ -357,6 +339,7 @@ impl Search<'_> {
 
     /// Those that may be told, by evidence; on whole records without those that a simpler law makes needless.
     pub(super) fn sorted(&self, level: usize, mut found: Vec<FittedRecords>) -> Vec<FittedRecords> {
+        found.iter_mut().for_each(|fit| self.put_on_effect(fit));
         found.retain(|f| {
             f.effects.last().is_none_or(|e| !e.is_disguised() && is_allowed(self.excluded, e, &last_deviations(f)))
         });
@@ -372,7 +355,7 @@ impl Search<'_> {
 }
 
 /// Adds fits that were begun, of each law at a place the best.
-fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<FittedRecords>>) {
+pub(super) fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<FittedRecords>>) {
     for fitted in begun.into_iter().flatten() {
         let same = |o: &FittedRecords| o.effects.last().zip(fitted.effects.last()).is_some_and(|(a, b)| a.is_same(b));
         match found.iter_mut().find(|o| same(o)) {

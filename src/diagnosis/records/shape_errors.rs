@@ -15,6 +15,11 @@ impl Records<'_> {
         self.sensors.len()
     }
 
+    /// Whether one sensor shows one mode under a measured force: the error of that shape is one of the mass, which a project states.
+    pub(super) fn has_one_shape(&self) -> bool {
+        self.kept == 1 && self.sensors.len() == 1 && self.list.iter().any(RecordData::shows_mass)
+    }
+
     /// Which of the channels that differ channel `c` of a record is.
     pub(super) fn sensor(&self, record: &RecordData, c: usize) -> usize {
         let channel = &record.channels[c];

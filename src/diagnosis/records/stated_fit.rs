@@ -136,6 +136,9 @@ impl Search<'_> {
         // A motion without a force shows no mass.
         if self.records.list.iter().any(RecordData::shows_mass) {
             choices.push(choice(true, false, true));
+            if self.records.has_one_shape() {
+                choices.push(choice(false, false, true));
+            }
             if fit.mass != 0.0 && count > 0 {
                 choices.push(choice(false, true, true));
             }
@@ -203,7 +206,7 @@ impl Search<'_> {
 
     fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
         // The evidence of an effect is that of the fit in which all else was free, or it would absorb what is fixed here.
-        let free = Free { corrections, shifts: true, shapes: true, effects: false };
+        let free = Free { corrections, shifts: true, shapes: !self.whole().has_one_shape(), effects: false };
         let problem = FitProblem { records: self.whole(), free, share: 1.0, control: self.control };
         match problem.chord_fit(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.

@@ -17,8 +17,10 @@ const LEAST_BAND: f64 = 0.05;
 /// Half width of a neighbourhood, in periods of the corner.
 const NEIGHBOURS: f64 = 2.0;
 
-/// Share of the motion by which any model is wrong.
-const SHARE: f64 = 0.01;
+/// Share of the motion by which any model is wrong; one of a single shape, whose mass takes what its sensor and its shape are off by, is wrong
+/// by less.
+pub(super) const SHARE: f64 = 0.01;
+pub(super) const SHARE_OF_ONE: f64 = 2e-3;
 
 /// Root mean square of a signal over `half` samples on either side of each.
 pub(super) fn local(signal: &[f64], half: usize) -> Vec<f64> {
@@ -34,9 +36,9 @@ pub(super) fn local(signal: &[f64], half: usize) -> Vec<f64> {
     (0..n).map(rms_at_sample).collect()
 }
 
-/// Standard deviations with the share of the motion `signal` by which any model is wrong; `half` samples on either side.
-pub(super) fn with_share(deviations: &[f64], signal: &[f64], half: usize) -> Vec<f64> {
-    deviations.iter().zip(local(signal, half)).map(|(s, a)| s.hypot(SHARE * a)).collect()
+/// Standard deviations with a `share` of the motion `signal` by which any model is wrong; `half` samples on either side.
+pub(super) fn with_share(share: f64, deviations: &[f64], signal: &[f64], half: usize) -> Vec<f64> {
+    deviations.iter().zip(local(signal, half)).map(|(s, a)| s.hypot(share * a)).collect()
 }
 
 /// Standard deviation of every sample of a signal: its noise and what lies above the corner.
