@@ -11,7 +11,7 @@ const FREEING: [usize; 2] = [2, 6];
 
 impl Search<'_> {
     /// Fits, best first, the first of them begun once more with corrections that are free where it leaves more than noise; of a model of a
-    /// single shape, whose corrections stand for much of what a law does, the special cases of that law, too.
+    /// single shape, or a body that floats, the special cases of its law, too.
     pub(super) fn with_best_freed(
         &self,
         level: usize,
@@ -25,7 +25,7 @@ impl Search<'_> {
                 found[0] = freed;
             }
         }
-        if self.records.has_one_shape() && !self.control.is_late() {
+        if (self.records.has_one_shape() || self.records.floats()) && !self.control.is_late() {
             let starts = self.special_case_starts(level, &found);
             let fits = self.control.map(starts.len(), |k| self.freed(level, &starts[k]));
             let fits: Vec<Option<FittedRecords>> = fits.into_iter().collect::<Result<_, _>>()?;
@@ -33,6 +33,11 @@ impl Search<'_> {
             add_begun(&mut found, fits.into_iter().map(|fit| fit.filter(|fit| fit.chi_square < least)).collect());
         }
         Ok(self.sorted(level, found))
+    }
+
+    /// Whether corrections are freed at every length: those of a single mode, or of a body that floats, stand for much of what a law does.
+    pub(super) fn is_freed_early(&self) -> bool {
+        self.records.kept == 1 || self.records.floats()
     }
 
     /// A fit begun at `start` with corrections that are free; `None` where it runs away.

@@ -307,7 +307,7 @@ impl Search<'_> {
             found = self.with_begun(level, found, &elsewhere)?;
         }
         let found = self.moved_along(level, found)?;
-        let freed = level + 1 == self.levels.len() || self.records.kept == 1;
+        let freed = level + 1 == self.levels.len() || self.is_freed_early();
         if freed { self.with_best_freed(level, found) } else { Ok(found) }
     }
 
