@@ -10,7 +10,7 @@ use dashpot::balance::windows::window_rows;
 use dashpot::control::Control;
 use dashpot::diagnosis::records::{Records, compare_records};
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::measurement::{Channel, Kind, Quantity, Record, TransientLabel, TransientRun};
+use dashpot::measurement::{Channel, ChannelCorrection, Kind, Quantity, Record, TransientLabel, TransientRun};
 use dashpot::response::transient::{SampledForces, TransientModel, TransientParameter, TransientSetup};
 use dashpot::structure::Structure;
 use std::f64::consts::TAU;
@@ -122,5 +122,20 @@ fn oscillator(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, long_decay, oscillator);
+/// Channels recorded a third of a step late, read at the samples where they should have been.
+fn late_channels(c: &mut Criterion) {
+    let mut group = c.benchmark_group("channels a third of a step late");
+    group.sample_size(10);
+    let run = decay(&cantilever(10));
+    let late = |channel: &Channel| ChannelCorrection { channel: channel.clone(), delay: run.step() / 3.0, gain: 1.0 };
+    for channels in [1, 2, 4, CHANNELS] {
+        let corrections: Vec<ChannelCorrection> = run.channels().iter().take(channels).map(late).collect();
+        let label = || TransientLabel { file: "late".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
+        group.bench_function(format!("100 000 samples x {channels}"), |b| {
+            b.iter(|| TransientRun::new(label(), run.record.clone(), &corrections).map(black_box).map(|run| run.len()));
+        });
+    }
+}
+
+criterion_group!(benches, long_decay, late_channels, oscillator);
 criterion_main!(benches);

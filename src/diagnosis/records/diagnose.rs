@@ -49,6 +49,8 @@ const LEARNING: [usize; 2] = [2, 3];
 const SURE: f64 = 3.0;
 /// Deviations that it must be on whole records not to be taken back, and rounds and steps of the fit without it.
 const VANISHED: f64 = 2.0;
+/// Squared residual without an effect over that with it from which on it is something, however much is left: three quarters of the error.
+const MUCH: f64 = 16.0;
 const WITHOUT: [usize; 2] = [4, 4];
 
 /// Finds what the model of `records` lacks; effects `excluded` are not suggested. Delays of channels that it shows are taken out, and the
@@ -178,11 +180,15 @@ impl Search<'_> {
             level = next;
         }
         // What short parts showed may be nothing on the whole.
-        let vanished = by_size.last.first().is_some_and(|f| f.effects.len() == 1 && !is_sure(f, VANISHED));
-        if vanished && let Some((level, without)) = by_size.earlier.iter().rfind(|(_, f)| f.effects.is_empty()).cloned()
+        let vanished = by_size.last.first().filter(|f| f.effects.len() == 1 && !is_sure(f, VANISHED));
+        if let Some(best) = vanished
+            && let Some((level, without)) = by_size.earlier.iter().rfind(|(_, f)| f.effects.is_empty())
         {
-            let start = self.carried(&without, level, whole)?;
-            by_size = SetsBySize { earlier: Vec::new(), last: vec![self.fit(whole, &start, 1.0, WITHOUT)?] };
+            let start = self.carried(without, *level, whole)?;
+            let without = self.fit(whole, &start, 1.0, WITHOUT)?;
+            if !takes_much(best, &without) {
+                by_size = SetsBySize { earlier: Vec::new(), last: vec![without] };
+            }
         }
         if let Some(best) = by_size.last.first().filter(|f| !f.effects.is_empty() && !self.control.is_late())
             && let Some(alone) = self.corrections_alone(best)?
@@ -257,7 +263,7 @@ impl Search<'_> {
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
         // On short parts the force and the spring of a slider may be uncertain each while what they do together is not.
-        if level + 1 == self.levels.len() && !stands_out(new) {
+        if level + 1 == self.levels.len() && !stands_out(new) && !takes_much(new, old) {
             return Ok(false);
         }
         // Corrections beyond what is believed are what an effect does, where it explains as much with corrections that may be.
@@ -309,6 +315,11 @@ fn adds_constant(fit: &FittedRecords) -> bool {
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.
 fn stands_out(fit: &FittedRecords) -> bool {
     is_sure(fit, SURE)
+}
+
+/// Whether a fit leaves so much less than one `without` its effect that this is something, whatever its deviation beside what is left.
+fn takes_much(fit: &FittedRecords, without: &FittedRecords) -> bool {
+    MUCH * fit.chi_square < without.chi_square
 }
 
 /// Whether it is more than so many deviations.
