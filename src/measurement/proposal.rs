@@ -7,6 +7,7 @@ use super::channel::Quantity;
 use super::kind::{Kind, Part};
 use super::record::Record;
 use crate::math::spectrum::Spectrum;
+use crate::math::statistics::mean;
 
 /// Blocks of time.
 const BLOCKS: usize = 100;
@@ -29,8 +30,9 @@ const LONGEST_PART: usize = 1 << 20;
 const PERIODIC: f64 = 0.8;
 /// Periods of a record below which the lines about multiples of one frequency are most of its spectrum.
 const FEW_PERIODS: usize = 16;
-/// Times by which a signal is shifted to find its period.
+/// Times by which a signal is shifted to find its period, and samples that are enough for it.
 const LAGS: usize = 200;
+const ENOUGH: usize = 8192;
 
 /// What a record looks like.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,7 +171,10 @@ fn concentration(record: &Record, channel: usize) -> f64 {
     let Some(top) = (1..power.len()).max_by(|&a, &b| power[a].total_cmp(&power[b])) else { return 0.0 };
     let total: f64 = power[1..].iter().sum();
     if top < FEW_PERIODS {
-        return repeated(record.samples(channel), top);
+        // Of that few periods one sample in many tells as much.
+        let part = &record.samples(channel)[..record.len().min(LONGEST_PART)];
+        let thinned: Vec<f64> = part.iter().copied().step_by(part.len().div_ceil(ENOUGH)).collect();
+        return repeated(&thinned, top);
     }
     // At a multiple the frequency is known that much worse.
     let near = |k: usize| (1..=7).any(|h| (k as f64 - (h * top) as f64).abs() <= 2.0 + 0.5 * (h - 1) as f64);
@@ -190,10 +195,6 @@ fn repeated(samples: &[f64], periods: usize) -> f64 {
         if size > 0.0 { sum(earlier, later, a, b) / size } else { 0.0 }
     };
     (shortest..=longest).step_by(step).map(correlation).fold(0.0, f64::max).powi(2)
-}
-
-fn mean(samples: &[f64]) -> f64 {
-    samples.iter().sum::<f64>() / samples.len().max(1) as f64
 }
 
 /// Largest root mean square over the channels of a kind in each block, each channel less its mean at the end and over its

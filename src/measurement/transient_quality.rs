@@ -222,3 +222,27 @@ fn drift(run: &TransientRun, c: usize) -> Option<Finding> {
         Finding::of_channel(Flag::Drift, channel, reason)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CUT_OFF, cut_off, longest_stay};
+    use std::f64::consts::TAU;
+
+    /// Share of its largest sample that a signal of 400 samples looks cut off by.
+    fn lost(signal: impl Fn(f64) -> f64) -> f64 {
+        let samples: Vec<f64> = (0..400).map(|n| signal(f64::from(n) / 400.0)).collect();
+        let most = samples.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+        cut_off(&samples, &longest_stay(&samples, most)) / most
+    }
+
+    /// A sine cut at nine tenths looks cut by about a tenth; the round top of a coarse converter, or a body that comes to rest, by nothing.
+    #[test]
+    fn what_is_cut_off_is_told_from_what_comes_to_rest() {
+        let sine = |t: f64| (TAU * 2.0 * t).sin();
+        let cut = lost(|t| sine(t).clamp(-0.9, 0.9));
+        assert!((0.05..0.2).contains(&cut), "{cut}");
+        assert!(lost(|t| (sine(t) * 1000.0).round() / 1000.0) < CUT_OFF);
+        let stroke = |t: f64| (2.0 * t).min(1.0);
+        assert!(lost(|t| stroke(t).powi(3) * (10.0 - 15.0 * stroke(t) + 6.0 * stroke(t).powi(2))) < CUT_OFF);
+    }
+}
