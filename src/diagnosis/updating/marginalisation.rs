@@ -111,7 +111,7 @@ impl Marginalisation {
         }
     }
 
-    /// Variances of the standardised parameters, the effects being known.
+    /// Variances of the standardised parameters, the effects being known; none where slopes are beyond all numbers.
     pub(crate) fn variances(&self) -> Vec<f64> {
         let Some(factor) = &self.factor else { return Vec::new() };
         let q = self.slopes.len();
@@ -156,7 +156,7 @@ impl Marginalisation {
         let mut list = self.updating.scales.list();
         for (class, scale) in list.iter_mut().enumerate().filter(|(class, _)| !matches!(class, 4 | 5)) {
             let own = || (0..u.len()).filter(|&k| self.updating.parameters[k].class() == class);
-            let known: f64 = own().map(|k| 1.0 - variances[k]).sum();
+            let known: f64 = own().filter_map(|k| variances.get(k)).map(|variance| 1.0 - variance).sum();
             let square: f64 = own().map(|k| u[k] * u[k]).sum();
             if known > least_known {
                 *scale *= (square / known).sqrt();
@@ -171,6 +171,16 @@ mod tests {
     use super::*;
     use crate::diagnosis::updating::parameters::UpdatingParameter;
     use crate::structure::Part;
+
+    /// Data that say nothing, since slopes are beyond all numbers, leave scales as they are.
+    #[test]
+    fn scales_stay_where_slopes_are_beyond_all_numbers() {
+        let updating = Updating { parameters: vec![UpdatingParameter::Structure(Part::Mass)], ..two().updating };
+        let updating = Updating { values: vec![0.01], ..updating };
+        let lost = Marginalisation::new(updating.clone(), vec![vec![f64::INFINITY, 1.0]]);
+        assert!(lost.variances().is_empty());
+        assert_eq!(lost.scales(&lost.solve(&[1.0, 2.0]), 0.5), updating.scales);
+    }
 
     fn two() -> Marginalisation {
         let parameters = vec![UpdatingParameter::Structure(Part::Stiffness), UpdatingParameter::Structure(Part::Mass)];
