@@ -11,6 +11,7 @@ mod hidden;
 mod level_series;
 mod missing_force;
 mod points;
+mod quiet_sensors;
 #[path = "../../examples/hidden_effects/random.rs"]
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod random;

@@ -5,10 +5,10 @@ use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::candidate_order::is_open;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{EVIDENCE, FittedSets, Found, agrees, distinct, nearly};
+use crate::diagnosis::selection::found::{EVIDENCE, FittedSets, Found, agrees, cost, distinct, nearly};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::updated::REFITTED;
-use crate::diagnosis::selection::weighing::{Weighed, cost, weighed};
+use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::effects::Source;
 
 /// Rounds in which a model converges beside the effects that are left when another is taken away.
@@ -118,55 +118,9 @@ fn fewer<'a>(reference: &ReferenceModel<'a>, sets: &FittedSets) -> Result<Option
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::common::models::{source, three_masses};
-    use crate::common::runs::{channel, run};
-    use crate::control::Control;
-    use crate::diagnosis::Problem;
-    use crate::diagnosis::residual::data::Data;
-    use crate::diagnosis::residual::prediction::Predictor;
-    use crate::diagnosis::result::Suggestion;
-    use crate::diagnosis::updating::parameters::Updating;
+    use crate::common::models::source;
+    use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
     use crate::effects::{Effect, Source};
-    use crate::measurement::{Quantity, Run};
-    use crate::response::harmonic_balance::{Excitation, ForwardModel};
-    use faer::c64;
-    use std::sync::Arc;
-
-    fn known() -> Source {
-        source(Effect::Viscous, &[0], &[0.8])
-    }
-
-    fn hidden() -> Source {
-        source(Effect::CubicStiffness, &[2], &[4e6])
-    }
-
-    /// Runs at two levels about the first mode of a chain whose ground spring is 2 % stiffer than stated and which hides a cubic spring.
-    fn runs() -> Vec<Run> {
-        let (structure, deviation) = (three_masses([1.02, 1.0, 1.0]), 1e-7);
-        let model = ForwardModel::new(&structure, &[known()]).unwrap();
-        let measured_run = |(omega, force): (f64, f64)| {
-            let amplitude = c64::new(force, 0.0);
-            let excitation = Excitation::sine(omega, 2, amplitude);
-            let (sources, control) = ([known(), hidden()], Control::unattended());
-            let response = model.at(omega).respond(&sources, &excitation, &FINAL, None, &control).unwrap();
-            let motion = |dof: usize| (1..=3).map(|h| response.amplitude(dof, h)).collect();
-            let zero = c64::new(0.0, 0.0);
-            let mut channels = vec![channel(Quantity::Force, 2, vec![amplitude, zero, zero], deviation)];
-            channels.extend((0..3).map(|dof| channel(Quantity::Displacement, dof, motion(dof), deviation)));
-            run(format!("{omega} rad/s, {force} N"), omega, channels)
-        };
-        [46.0, 48.0, 50.0, 52.0].into_iter().flat_map(|omega| [(omega, 1.0), (omega, 2.0)]).map(measured_run).collect()
-    }
-
-    /// Does a test with the model as it is stated, linearised beside `effects`.
-    fn with_stated<T>(effects: &[Source], test: impl FnOnce(ReferenceModel) -> T) -> T {
-        let (stated, sources, runs) = (three_masses([1.0; 3]), vec![known()], runs());
-        let data = Data::new(&Problem { structure: &stated, sources: &sources, runs: &runs }).unwrap();
-        let predictor = Arc::new(Predictor::new(&stated, sources.clone(), &data).unwrap());
-        let (control, early) = (Control::unattended(), |_: &[Suggestion]| {});
-        let model = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
-        test(model.updated(&Updating::all(&stated, &sources, &data), effects, &Vec::new()).unwrap())
-    }
 
     /// The effects that are left of a set of which the data know the parameters of those in `open` not, and the factor on the ground
     /// spring of the model beside them.
@@ -176,7 +130,13 @@ mod tests {
             open.iter().for_each(|&k| fit.deviations[k].fill(f64::NAN));
             let noise = reference.noise.clone();
             let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
-            let mut found = Found { updated: true, by_size: vec![sets], agrees: false, before: f64::INFINITY };
+            let mut found = Found {
+                updated: true,
+                by_size: vec![sets],
+                agrees: false,
+                before: f64::INFINITY,
+                without: f64::INFINITY,
+            };
             let converged = without_needless_effects(reference, &mut found).unwrap();
             let structure = converged.linearisation.updating.structure(converged.predictor.stated().0);
             let ground = structure.matrices().unwrap().stiffness[(0, 0)] - 1e4;

@@ -20,9 +20,9 @@ pub(super) fn beside_updating(
     reference: ReferenceModel<'_>,
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
-    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before };
     let stated = reference.estimator().error(&reference.predictions, &[]);
     let bare = reference.bare()?;
+    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before, without: bare.misfit() };
     let (mut here, first, corrected) = match first_candidates((&reference, before), &bare)? {
         First::Fits(here, fits, corrected) => (here, fits, corrected),
         First::None(likely) => {

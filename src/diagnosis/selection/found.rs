@@ -69,6 +69,17 @@ pub(crate) struct Found {
     pub agrees: bool,
     /// Squared residual of the model as it is.
     pub before: f64,
+    /// Squared residual per datum of the corrected model without any effect; zero where it was not corrected.
+    pub without: f64,
+}
+
+/// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.
+pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
+    let fit = match fit {
+        Some(fit) => reference.evidence(fit, 1.0),
+        None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),
+    };
+    fit + reference.noise.cost()
 }
 
 /// Whether a squared residual with `parameters` fitted is that of noise.

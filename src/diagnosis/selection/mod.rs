@@ -21,10 +21,13 @@ mod refinement;
 mod rival;
 pub(crate) mod search;
 pub(crate) mod sentences;
+mod sessions_alike;
 mod short_list;
 mod single_change;
 mod singles;
 mod solver_settings;
+#[cfg(test)]
+mod stated_chain;
 pub(crate) mod stepwise;
 mod successive_linearisation;
 mod two_laws;

@@ -62,6 +62,12 @@ impl<'a> ReferenceModel<'a> {
         }
     }
 
+    /// The same model where higher harmonics count for nothing, as it is updated next.
+    pub(super) fn of_fundamentals(&self) -> ReferenceModel<'a> {
+        let linearisation = Linearisation { of_fundamentals: true, ..(*self.linearisation).clone() };
+        ReferenceModel { linearisation: Arc::new(linearisation), noise: self.noise.clone(), ..self.shallow() }
+    }
+
     /// Noise of the residual of a model with `effects` and its predictions.
     pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
         let whitening = |(r, run): (usize, &RunData), a: &Transfers| Whitening::new(run, a, &of[r].truncation);

@@ -4,7 +4,7 @@ use super::search::{View, joined};
 use super::short_list::{
     Breadth, is_plain_friction_of, plain_friction_first, without_falling_friction, without_idle_parameters,
 };
-use super::weighing::{bound_beside, by_simplest_name, cost};
+use super::weighing::{bound_beside, by_simplest_name};
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
 use crate::diagnosis::localisation::free_force::BesideWhole;
@@ -13,7 +13,7 @@ use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::agrees;
+use crate::diagnosis::selection::found::{agrees, cost};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
@@ -117,6 +117,24 @@ impl<'a> ReferenceModel<'a> {
         };
         let (again, most) = (reference.refitted(fit, settings)?, bound_beside(self, fit));
         reference.converged_below(most, again, &SEARCH, UPDATES).map(Some)
+    }
+
+    /// The same fitted on fundamentals alone first, then on all harmonics: one that falls into a resonance above the band is not linear in
+    /// the model, and quiet as sensors are it weighs more than all fundamentals do.
+    pub(super) fn begun_by_fundamentals(
+        &self,
+        fit: &FittedModel,
+    ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let updating = Updating::all(stated, known, self.data);
+        let settings = settings_for(fit, self.count(), &SEARCH);
+        let stepped = self.of_fundamentals().stepped(updating, (&fit.effects, &fit.starts), settings)?;
+        let Some((_, reference)) = stepped else { return Ok(None) };
+        let begun = reference.refitted(fit, settings)?;
+        let (there, begun) = reference.converged(begun, &SEARCH, UPDATES)?;
+        let all = self.updated_as(&there.linearisation.updating, &begun.effects, &begun.starts, settings)?;
+        let again = all.refitted(&begun, settings)?;
+        all.converged(again, &SEARCH, UPDATES).map(Some)
     }
 
     /// The candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then. The first is the
@@ -312,4 +330,24 @@ fn with_limits(mut kept: Vec<UnfittedSet>, unfitted: &[UnfittedSet]) -> Vec<Unfi
         }
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
+
+    /// Far from the law that acts and from the ground spring there is, fundamentals lead to both.
+    #[test]
+    fn a_fit_begun_by_fundamentals_arrives_where_all_harmonics_are_explained() {
+        let start = Source { parameters: vec![0.3 * hidden().parameters[0]], ..hidden() };
+        with_stated(&[start.clone()], |reference| {
+            let fit = reference.estimator().fit(&[start.clone()], 0, &SEARCH, &Vec::new()).unwrap();
+            let (there, fit) = reference.begun_by_fundamentals(&fit).unwrap().unwrap();
+            assert!(!there.linearisation.of_fundamentals);
+            assert!((fit.effects[0].parameters[0] / hidden().parameters[0] - 1.0).abs() < 0.01, "{:?}", fit.effects);
+            assert!(fit.chi_square < 2.0 * there.count() as f64, "{} of {}", fit.chi_square, there.count());
+        });
+    }
 }

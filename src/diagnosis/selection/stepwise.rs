@@ -60,7 +60,7 @@ pub(crate) fn explain(
     if reference.data.doubted {
         return beside_updating(reference, before);
     }
-    let none = || Found { updated: false, by_size: Vec::new(), agrees: false, before };
+    let none = || Found { updated: false, by_size: Vec::new(), agrees: false, before, without: 0.0 };
     let mut exact = none();
     let reach = reference.reach()?;
     let n = reference.count() as f64;

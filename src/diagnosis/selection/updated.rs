@@ -123,6 +123,7 @@ impl<'a> ReferenceModel<'a> {
             common,
             at_motion,
             doubts_harmonics,
+            of_fundamentals: self.linearisation.of_fundamentals,
             stiffness,
             expansions,
             leverage,

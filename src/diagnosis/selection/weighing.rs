@@ -3,13 +3,14 @@
 
 use super::candidate_order::{COARSE, Candidate, is_open, likeliest_first, nearest_first, simplest_first};
 use super::cross_validation::groups;
+use super::sessions_alike::with_sessions_alike;
 use crate::diagnosis::channels::fault::is_ordinary_gain;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNEXPLAINED};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, same_set};
+use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, cost, same_set};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::successive_linearisation::CONVERGED;
@@ -55,6 +56,8 @@ const WEIGHED: usize = 6;
 /// Laws that the best may have been taken for which are weighed, and rounds in which model and law are settled for each.
 const WIDER: usize = 2;
 const WIDER_UPDATES: usize = 3;
+/// Share of the error of a candidate below which another of the same effects leaves less of the response.
+const LESS: f64 = 0.8;
 /// Candidates that are settled to the end: where the best turns out to be nothing, the next.
 const FINISHED: usize = 2;
 
@@ -129,18 +132,29 @@ fn scaled<'a>((own, fit): &(ReferenceModel<'a>, FittedModel)) -> Result<Candidat
 }
 
 /// The best of the candidates, where it leaves more than a model of this structure would, in its stead as it is when it is begun again
-/// beside the model as it was stated, where that leaves less.
-fn begin_again(all: &mut [Candidate]) -> Result<(), DiagnosisError> {
+/// beside the model as it was stated, or by fundamentals, where that leaves less. Where nothing agrees with the data the squared residual
+/// may be all of harmonics in resonances above the band: then that is better which leaves less of the response.
+fn begin_again(all: &mut Vec<Candidate>) -> Result<(), DiagnosisError> {
     let Some(best) = all.first_mut() else { return Ok(()) };
     let left = best.fit.chi_square / best.reference.count() as f64;
     if left < TOLERATED || best.reference.control.is_late() {
         return Ok(());
     }
-    let Some(again) = if_possible(best.reference.begun_again(&best.fit))?.flatten() else { return Ok(()) };
-    let again = scaled(&again)?;
-    if again.cost < best.cost && is_effect(&again.reference, &again.fit) {
-        *best = again;
+    let (reference, fit) = (&best.reference, &best.fit);
+    let begun = |k: usize| if k == 0 { reference.begun_again(fit) } else { reference.begun_by_fundamentals(fit) };
+    let begun = reference.control.map(2, |k| if_possible(begun(k)));
+    let mut most = f64::INFINITY;
+    for begun in begun {
+        let Some(again) = begun?.flatten() else { continue };
+        let again = scaled(&again)?;
+        let (least, less) = (LESS * best.fit.error, again.fit.error < LESS * best.fit.error);
+        let likelier = again.cost < best.cost && LESS * again.fit.error < best.fit.error;
+        if (less || likelier) && is_effect(&again.reference, &again.fit) {
+            most = if less { least } else { most };
+            *best = again;
+        }
     }
+    all.retain(|candidate| candidate.fit.error < most);
     Ok(())
 }
 
@@ -264,7 +278,8 @@ fn finished(
             break;
         }
     }
-    reference.converged(fit, &FINAL, UPDATES)
+    let (reference, fit) = reference.converged(fit, &FINAL, UPDATES)?;
+    with_sessions_alike(reference, fit)
 }
 
 /// Whether both are the same coupling read from either end.
@@ -308,13 +323,4 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
             && is_within_part(reference.predictor.structure(), (source, deviation), part, OF_THE_PART)
     };
     !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().zip(&fit.deviations).any(within)
-}
-
-/// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.
-pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
-    let fit = match fit {
-        Some(fit) => reference.evidence(fit, 1.0),
-        None => reference.estimator().residual(&reference.predictions).iter().map(|r| r * r).sum(),
-    };
-    fit + reference.noise.cost()
 }

@@ -22,13 +22,14 @@ pub(crate) fn linearisation_error(
     errors(data, linearisation, predictions, |square| square.min(1.0))
 }
 
-/// The same where a harmonic tells nothing: all of it; elsewhere nothing.
+/// The same where a harmonic tells nothing, as none does where fundamentals alone count: all of it; elsewhere nothing.
 pub(crate) fn unpredictable(
     data: &Data,
     linearisation: &Linearisation,
     predictions: &[RunPrediction],
 ) -> Vec<Vec<Vec<f64>>> {
-    errors(data, linearisation, predictions, |square| if square < UNPREDICTABLE { 0.0 } else { 1.0 })
+    let unpredictable = |square: f64| square >= UNPREDICTABLE || linearisation.of_fundamentals;
+    errors(data, linearisation, predictions, |square| f64::from(u8::from(unpredictable(square))))
 }
 
 /// Errors as shares of the amplitudes, each of `s^2`.
@@ -39,8 +40,8 @@ fn errors(
     share: impl Fn(f64) -> f64,
 ) -> Vec<Vec<Vec<f64>>> {
     let of_run = |(r, (run, prediction)): (usize, (&RunData, &RunPrediction))| {
-        let square = |h: usize| if h == 0 { 0.0 } else { square(linearisation, (r, h), run, prediction) };
-        let shares: Vec<f64> = (0..run.harmonics).map(|h| share(square(h))).collect();
+        let share_of = |h: usize| if h == 0 { 0.0 } else { share(square(linearisation, (r, h), run, prediction)) };
+        let shares: Vec<f64> = (0..run.harmonics).map(share_of).collect();
         let channel = |c: usize| shares.iter().enumerate().map(|(h, s)| s * size(run, prediction, c, h)).collect();
         (0..run.responses.len()).map(channel).collect()
     };
@@ -113,7 +114,10 @@ mod tests {
             errors(&data, &reference.linearisation, &reference.predictions)
         };
         let (second_order, lost) = (errors_by(linearisation_error), errors_by(unpredictable));
+        let fundamentals = Linearisation { of_fundamentals: true, ..(*reference.linearisation).clone() };
+        let all_lost = unpredictable(&data, &fundamentals, &reference.predictions);
         for c in 0..3 {
+            assert!(all_lost.iter().all(|run| run[c][0] == 0.0 && run[c][1] > 0.0 && run[c][2] > 0.0), "{all_lost:?}");
             assert!(second_order.iter().chain(&lost).all(|run| run[c][0] == 0.0));
             assert!((lost[0][c][2] - 1e-5).abs() < 1e-12 && (second_order[0][c][2] - 1e-5).abs() < 1e-12, "{lost:?}");
             assert!(lost[1][c][2] == 0.0 && second_order[1][c][2] < 0.3e-5, "{second_order:?}");

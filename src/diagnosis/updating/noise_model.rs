@@ -37,6 +37,8 @@ pub(crate) struct Linearisation {
     pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
     /// Whether higher harmonics are doubted as far as the model is: else its receptance is taken for exact there.
     pub doubts_harmonics: bool,
+    /// Whether higher harmonics count for nothing.
+    pub of_fundamentals: bool,
     /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the

@@ -213,33 +213,36 @@ impl Updating {
         Self { values, ..self.clone() }
     }
 
+    /// The same with all parameters at nothing but those that are kept.
+    fn kept(&self, is_kept: impl Fn(&UpdatingParameter) -> bool) -> Self {
+        let value = |(parameter, v): (&UpdatingParameter, &f64)| if is_kept(parameter) { *v } else { 0.0 };
+        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
+    }
+
     /// The same with the parameters of channels at nothing: predictions do not contain them, so that they are no reference.
     #[must_use]
     pub fn of_model(&self) -> Self {
-        let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_of_model() { *v } else { 0.0 };
-        Self { values: self.parameters.iter().zip(&self.values).map(value).collect(), ..self.clone() }
+        self.kept(UpdatingParameter::is_of_model)
     }
 
     /// The same with the gains of forces and the stiffness of single runs at nothing: where scales leave them no freedom they cannot be
     /// moved back.
     #[must_use]
     pub fn without_force_gains_and_shifts(&self) -> Self {
-        let value = |(parameter, v): (&UpdatingParameter, &f64)| {
-            if matches!(parameter, UpdatingParameter::ForceGain(_)) { 0.0 } else { *v }
-        };
-        Self {
-            values: self.parameters.iter().zip(&self.values).map(value).collect(),
-            shifts: Vec::new(),
-            ..self.clone()
-        }
+        let kept = self.kept(|parameter| !matches!(parameter, UpdatingParameter::ForceGain(_)));
+        Self { shifts: Vec::new(), ..kept }
+    }
+
+    /// The same with the stiffness of each session at nothing.
+    #[must_use]
+    pub fn without_sessions(&self) -> Self {
+        self.kept(|parameter| !matches!(parameter, UpdatingParameter::Session(_)))
     }
 
     /// The same with all runs alike: what holds of the structure, not of the records.
     #[must_use]
     pub fn of_structure(&self) -> Self {
-        let value = |(parameter, v): (&UpdatingParameter, &f64)| if parameter.is_stated() { *v } else { 0.0 };
-        let values = self.parameters.iter().zip(&self.values).map(value).collect();
-        Self { values, shifts: Vec::new(), ..self.clone() }
+        Self { shifts: Vec::new(), ..self.kept(UpdatingParameter::is_stated) }
     }
 
     /// Relative stiffness of run `r` beyond that of the structure: its session's and its own.
