@@ -342,8 +342,8 @@ mod tests {
     #[test]
     fn a_fit_begun_by_fundamentals_arrives_where_all_harmonics_are_explained() {
         let start = Source { parameters: vec![0.3 * hidden().parameters[0]], ..hidden() };
-        with_stated(&[start.clone()], |reference| {
-            let fit = reference.estimator().fit(&[start.clone()], 0, &SEARCH, &Vec::new()).unwrap();
+        with_stated(std::slice::from_ref(&start), |reference| {
+            let fit = reference.estimator().fit(std::slice::from_ref(&start), 0, &SEARCH, &Vec::new()).unwrap();
             let (there, fit) = reference.begun_by_fundamentals(&fit).unwrap().unwrap();
             assert!(!there.linearisation.of_fundamentals);
             assert!((fit.effects[0].parameters[0] / hidden().parameters[0] - 1.0).abs() < 0.01, "{:?}", fit.effects);

@@ -22,10 +22,10 @@ const UPDATES: usize = 6;
 
 /// The model and the effects of `fit`, or both with all sessions alike where that is hardly less likely and leaves less of the data
 /// when all runs are.
-pub(super) fn with_sessions_alike<'a>(
-    reference: ReferenceModel<'a>,
+pub(super) fn with_sessions_alike(
+    reference: ReferenceModel<'_>,
     fit: FittedModel,
-) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
+) -> Result<(ReferenceModel<'_>, FittedModel), DiagnosisError> {
     if reference.data.sessions.is_empty() || reference.control.is_late() {
         return Ok((reference, fit));
     }
