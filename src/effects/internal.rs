@@ -125,7 +125,8 @@ impl<T: InternalLaw> Internal<T> {
     fn unslipped(&self, p: &[f64], d: &[f64]) -> f64 {
         let (least, most) = extremes(d);
         let bound = self.0.bound(p, d[most] - d[least]);
-        (self.0.stiffness(p) * (d[0] - middle(d))).clamp(-bound, bound)
+        // No clamp: of a trial whose parameters are no numbers the bound is none either, and the answer is then no number.
+        (self.0.stiffness(p) * (d[0] - middle(d))).max(-bound).min(bound)
     }
 
     /// The ways of one period in steady state, and the slope of the period's map there.

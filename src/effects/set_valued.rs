@@ -35,7 +35,7 @@ pub trait SetValued: Sync {
     /// force and velocity are friction's.
     fn held(&self, p: &[f64], force: f64, v: f64, r: f64) -> f64 {
         let ([low, high], [g, _]) = (self.bounds(p), self.smooth_part(p, v));
-        g + (force - g + r * v).clamp(low, high.max(low))
+        g + (force - g + r * v).max(low).min(high.max(low))
     }
 }
 
