@@ -82,7 +82,9 @@ impl LoadingCurve {
 
     /// From the force `start` (0 to 1) over `way >= 0`.
     pub(crate) fn risen(&self, start: f64, way: f64) -> Reached {
-        if start >= self.last().z[0] {
+        // A start or an exponent that is no number is below nothing.
+        let is_below = start < self.last().z[0];
+        if !is_below {
             return self.end(start.min(1.0), 0.0, way);
         }
         let from = self.way_to(start);

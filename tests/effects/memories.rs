@@ -65,3 +65,13 @@ fn the_trial_slope_is_the_derivative() {
         }
     }
 }
+
+/// A trial of a search may leave all numbers: the answer is then no number, and no panic.
+#[test]
+fn internal_forces_of_parameters_that_are_no_numbers_do_not_panic() {
+    let internal = |effect: &Effect| matches!(effect, Effect::BoucWen | Effect::StiffeningBoucWen | Effect::Dahl);
+    for (_, law, p) in cases().into_iter().filter(|(effect, ..)| internal(effect)) {
+        let (motion, lost) = (rich(16), vec![f64::NAN; p.len()]);
+        assert_eq!(sampled(law, &lost, &motion).len(), 16);
+    }
+}
