@@ -109,14 +109,9 @@ impl<'a> ReferenceModel<'a> {
         &self,
         fit: &FittedModel,
     ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        let updating = Updating::all(stated, known, self.data);
         let settings = settings_for(fit, self.count(), &SEARCH);
-        let Some((_, reference)) = self.stepped(updating, (&fit.effects, &fit.starts), settings)? else {
-            return Ok(None);
-        };
-        let (again, most) = (reference.refitted(fit, settings)?, bound_beside(self, fit));
-        reference.converged_below(most, again, &SEARCH, UPDATES).map(Some)
+        let Some((reference, again)) = self.moved_from_stated(fit, settings)? else { return Ok(None) };
+        reference.converged_below(bound_beside(self, fit), again, &SEARCH, UPDATES).map(Some)
     }
 
     /// The same fitted on fundamentals alone first, then on all harmonics: one that falls into a resonance above the band is not linear in
@@ -125,16 +120,29 @@ impl<'a> ReferenceModel<'a> {
         &self,
         fit: &FittedModel,
     ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        let updating = Updating::all(stated, known, self.data);
         let settings = settings_for(fit, self.count(), &SEARCH);
-        let stepped = self.of_fundamentals().stepped(updating, (&fit.effects, &fit.starts), settings)?;
-        let Some((_, reference)) = stepped else { return Ok(None) };
-        let begun = reference.refitted(fit, settings)?;
+        let Some((reference, begun)) = self.of_fundamentals().moved_from_stated(fit, settings)? else {
+            return Ok(None);
+        };
         let (there, begun) = reference.converged(begun, &SEARCH, UPDATES)?;
         let all = self.updated_as(&there.linearisation.updating, &begun.effects, &begun.starts, settings)?;
         let again = all.refitted(&begun, settings)?;
         all.converged(again, &SEARCH, UPDATES).map(Some)
+    }
+
+    /// The model moved beside the effects of `fit` from where it was stated on, and these then fitted beside it; none where there is no such
+    /// model.
+    fn moved_from_stated(
+        &self,
+        fit: &FittedModel,
+        settings: &Settings,
+    ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let updating = Updating::all(stated, known, self.data);
+        let stepped = self.stepped(updating, (&fit.effects, &fit.starts), settings)?;
+        let Some((_, reference)) = stepped else { return Ok(None) };
+        let fitted = reference.refitted(fit, settings)?;
+        Ok(Some((reference, fitted)))
     }
 
     /// The candidates refined a little, the best of them to the end; none whose evidence is not below `bound` by then. The first is the
