@@ -26,8 +26,9 @@ pub(crate) const TOLERATED: f64 = 4.0;
 /// development seeds for which that was so, a third had the law that was told.
 pub(crate) const UNTRUSTED: f64 = 0.35;
 /// Share of the squared residual of corrections alone below which a law is trusted that leaves more than that: sensors may be so
-/// quiet that no model of a real structure agrees with them. Five of 152 development projects ended so, with all runs alike within a
-/// tenth of the response or nearly: three below this share (1e-4 to 2e-3) had the law that was told, two above it (0.37 and more) not.
+/// quiet that no model of a real structure agrees with them. Of 152 development projects three ended below this share (1e-4 to
+/// 2e-3) with less than a tenth of the response left, all three with the law that was told; all others with such a misfit left more
+/// than a tenth, and are doubted for that.
 const TAKEN: f64 = 5e-3;
 /// Squared residual per datum from which on no law of the library gives what is missing.
 pub(super) const UNEXPLAINED: f64 = 100.0;
