@@ -10,7 +10,7 @@ use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::{found, stepwise};
+use crate::diagnosis::selection::{found, one_level, stepwise};
 use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use std::sync::Arc;
@@ -115,6 +115,9 @@ pub(crate) fn lacks_width(problem: &Problem, control: &Control) -> Result<bool, 
     Ok(data.runs.iter().zip(&predictions).any(within))
 }
 
+/// Share of the error of what is told below which what the runs of one level led to leaves less, where it is no better known.
+const LESS: f64 = 0.8;
+
 /// What is found on the runs of `data`.
 fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> Result<Diagnosis, DiagnosisError> {
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), data)?);
@@ -126,7 +129,7 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     let mut diagnosis = loop {
         let mended = channels::mended(data, &faults);
         let reference = ReferenceModel::new(predictor.clone(), &mended, control, early)?;
-        match explained(reference)? {
+        match explained(problem, reference)? {
             Ok(diagnosis) => break diagnosis,
             Err(fault) => faults.push(fault),
         }
@@ -144,25 +147,46 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
 }
 
 /// Explains what the reference model leaves; or a channel that is not to be relied on.
-fn explained(reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
+fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
     let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
     let noise_floor = reference.noise_floor(&[], &reference.predictions);
     let diagnosis = Diagnosis::adequate(reference.agreement(), noise_floor);
     if found::agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));
     }
-    let (control, doubting) = (reference.control, reference.doubting_harmonics());
-    let first = match stepwise::explain(reference, before)? {
+    let (control, stated) = (reference.control, reference.clone());
+    let from_one_level = || match one_level::explain(problem, &stated, before)? {
+        Some(outcome) => outcome.conclude(diagnosis.clone()).map(Some),
+        None => Ok(None),
+    };
+    let far = one_level::is_far_at_one_level(problem, &stated);
+    let of_level = if far { from_one_level()? } else { None };
+    if let Some(told) = of_level.as_ref().filter(|told| told.verdict == Verdict::Missing) {
+        return Ok(Ok(told.clone()));
+    }
+    let mut told = match stepwise::explain(reference, before)? {
         Ok(outcome) => outcome.conclude(diagnosis.clone())?,
         Err(fault) => return Ok(Err(fault)),
     };
     // Harmonics that excite modes above the band, which the model misses by more than their width, point anywhere.
-    if first.verdict != Verdict::Unexplained || control.is_late() {
-        return Ok(Ok(first));
+    if told.verdict == Verdict::Unexplained
+        && !control.is_late()
+        && let Ok(outcome) = stepwise::explain(stated.doubting_harmonics(), before)?
+    {
+        let second = outcome.conclude(diagnosis.clone())?;
+        told = if second.verdict == Verdict::Unexplained { told } else { second };
     }
-    let second = match stepwise::explain(doubting, before)? {
-        Ok(outcome) => outcome.conclude(diagnosis)?,
-        Err(_) => return Ok(Ok(first)),
-    };
-    Ok(Ok(if second.verdict == Verdict::Unexplained { first } else { second }))
+    let open = matches!(told.verdict, Verdict::Unexplained | Verdict::Undecided);
+    let of_level = if open && !far && !control.is_late() { from_one_level()? } else { of_level };
+    Ok(Ok(match of_level {
+        Some(other) if open && is_better(&other, &told) => other,
+        _ => told,
+    }))
+}
+
+/// Whether `other` says more than `told` does and leaves less, or leaves much less.
+fn is_better(other: &Diagnosis, told: &Diagnosis) -> bool {
+    let left = |diagnosis: &Diagnosis| diagnosis.steps.last().map_or(f64::INFINITY, |step| step.error);
+    let most = if other.verdict == Verdict::Missing { 1.0 } else { LESS };
+    other.verdict != Verdict::Unexplained && left(other) < most * left(told)
 }

@@ -9,6 +9,10 @@ use faer::c64;
 
 /// A channel whose fundamental is below this share of the largest of its quantity in the run shows nothing.
 const DEAD: f64 = 1e-9;
+/// Share of the largest amplitude of its quantity over all runs below which no record tells anything, however little it scatters:
+/// converters of 24 bits resolve 6e-8 of their range, and the fit of some thousand samples two digits more. Behind a joint that sticks
+/// computed records go on where no sensor does.
+const RESOLVED: f64 = 1e-9;
 
 /// Why a model cannot be compared with its measurements or explained.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -171,7 +175,7 @@ impl RunData {
     }
 
     /// What the error of response channel `c` is measured by: its size, at least a twentieth of the largest of its
-    /// quantity in the run, so that a sensor at a node does not rule.
+    /// quantity in the run, so that a sensor at a node does not rule, and its noise.
     pub fn scale(&self, c: usize) -> f64 {
         self.scale_beside(c, |_| 1.0)
     }
@@ -181,7 +185,8 @@ impl RunData {
         let own = &self.responses[c];
         let same = self.responses.iter().filter(|other| other.quantity == own.quantity);
         let largest = same.map(|other| other.size() / gain(other)).fold(0.0, f64::max);
-        own.size().max(gain(own) * largest / 20.0)
+        let noise = own.deviation.first().copied().unwrap_or(0.0);
+        own.size().max(gain(own) * largest / 20.0).max(noise)
     }
 
     /// The measured forces as excitation, each divided by the transfer of its channel at each harmonic; harmonics that are no
@@ -235,8 +240,11 @@ impl Data {
         Ok(Self::of(problem, runs))
     }
 
-    fn of(problem: &Problem, runs: Vec<RunData>) -> Self {
+    fn of(problem: &Problem, mut runs: Vec<RunData>) -> Self {
         let per_unit_force = runs.iter().any(|run| problem.runs[run.index].per_unit_force);
+        if !per_unit_force {
+            resolved(&mut runs);
+        }
         let dofs = problem.structure.dofs().iter().enumerate();
         let rotations = dofs.filter(|(_, dof)| dof.direction.is_rotation()).map(|(row, _)| row).collect();
         Self {
@@ -290,6 +298,17 @@ impl Data {
     }
 }
 
+/// Raises the deviations of responses to what no record resolves beside the largest of its quantity in all `runs`.
+fn resolved(runs: &mut [RunData]) {
+    let largest = |quantity: Quantity| RESOLVED * runs.iter().map(|run| run.largest(quantity)).fold(0.0, f64::max);
+    let quantities = [Quantity::Acceleration, Quantity::Velocity, Quantity::Displacement];
+    let least = quantities.map(|quantity| (quantity, largest(quantity)));
+    for channel in runs.iter_mut().flat_map(|run| &mut run.responses) {
+        let least = least.iter().find(|(quantity, _)| *quantity == channel.quantity).map_or(0.0, |(_, least)| *least);
+        channel.deviation.iter_mut().for_each(|deviation| *deviation = deviation.max(least));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -313,6 +332,26 @@ mod tests {
         // What the exciter adds stays, the noise between is at rest.
         assert_eq!(force(&[1.0, 2e-3, 0.1, 1e-3]), [c64::new(0.0, 0.5), c64::new(0.0, 0.0), c64::new(0.0, 0.05)]);
         assert_eq!(force(&[1e-4]), [c64::new(0.0, 5e-5)], "the fundamental always drives");
+    }
+
+    /// Behind a joint that sticks at the lower level nothing is told, however little it scatters there.
+    #[test]
+    fn what_no_record_resolves_beside_the_largest_is_noise() {
+        let run = |size: f64| {
+            let channel = ChannelData {
+                name: "acc@1".into(),
+                quantity: Quantity::Acceleration,
+                dof: 0,
+                measured: vec![c64::new(size, 0.0)],
+                deviation: vec![1e-3 * size],
+            };
+            let (forces, responses, on_moving_base) = (Vec::new(), vec![channel], false);
+            RunData { index: 0, omega: 1.0, harmonics: 1, forces, responses, alive: vec![0], on_moving_base }
+        };
+        let mut runs = [run(5.0), run(1e-4), run(1e-11)];
+        resolved(&mut runs);
+        let told = |k: usize| (runs[k].responses[0].deviation[0], runs[k].scale(0));
+        assert_eq!([told(0), told(1), told(2)], [(5e-3, 5.0), (1e-7, 1e-4), (5e-9, 5e-9)]);
     }
 
     /// What the error of a channel is measured by is that of the record in which all channels read rightly, as the channel reads: the

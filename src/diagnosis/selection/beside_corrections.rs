@@ -20,18 +20,28 @@ pub(super) fn beside_updating(
     reference: ReferenceModel<'_>,
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
-    let stated = reference.estimator().error(&reference.predictions, &[]);
     let bare = reference.bare()?;
-    let mut found = Found { updated: true, by_size: Vec::new(), agrees: false, before, without: bare.misfit() };
-    let (mut here, first, corrected) = match first_candidates((&reference, before), &bare)? {
-        First::Fits(here, fits, corrected) => (here, fits, corrected),
+    match first_candidates((&reference, before), &bare)? {
+        First::Fits(here, fits, corrected) => selected((&reference, &bare), before, (here, fits), corrected).map(Ok),
         First::None(likely) => {
-            found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
-            return Ok(Ok(Outcome { reference: likely, found }));
+            let agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
+            let found = Found { agrees, ..Found::beside(&bare, before) };
+            Ok(Ok(Outcome { reference: likely, found }))
         }
-        First::Unreliable(fault) => return Ok(Err(fault)),
-    };
-    let (mut first, mut rival) = (Some(first), Rival::new(&bare, stated, corrected));
+        First::Unreliable(fault) => Ok(Err(fault)),
+    }
+}
+
+/// The search with the updating parameters free from the candidates `first` on, beside corrections, which leave what `bare` does.
+pub(super) fn selected<'a>(
+    (reference, bare): (&ReferenceModel<'a>, &ReferenceModel<'a>),
+    before: f64,
+    (mut here, first): (ReferenceModel<'a>, Vec<(ReferenceModel<'a>, FittedModel)>),
+    corrected: Option<(ReferenceModel<'a>, f64)>,
+) -> Result<Outcome<'a>, DiagnosisError> {
+    let stated = reference.estimator().error(&reference.predictions, &[]);
+    let mut found = Found::beside(bare, before);
+    let (mut first, mut rival) = (Some(first), Rival::new(bare, stated, corrected));
     while found.by_size.len() < MOST_EFFECTS && (found.by_size.is_empty() || !here.control.is_late()) {
         let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());
         let fits = match (&from, first.take()) {
@@ -70,8 +80,7 @@ pub(super) fn beside_updating(
             weighed.probabilities.iter_mut().for_each(|p| *p *= odds);
         }
         let (likely, least) = weighed.taken_into(&mut found);
-        here =
-            ReferenceModel { predictions: likely.predictions.clone(), noise: likely.noise.clone(), ..likely.shallow() };
+        here = likely.clone();
         // Corrections beyond what models are wrong by may stand in for one effect more.
         let enough = found.agrees && is_likely(&likely);
         rival.is_now(likely, least);
@@ -85,7 +94,7 @@ pub(super) fn beside_updating(
     }
     pruned(&likely, &mut found)?;
     let likely = without_needless_effects(likely, &mut found)?;
-    Ok(Ok(Outcome { reference: likely, found }))
+    Ok(Outcome { reference: likely, found })
 }
 
 /// What a search beside corrections begins with.

@@ -58,11 +58,7 @@ impl Outcome<'_> {
             return self.conclude_without_effects(diagnosis);
         };
         let best = &top.fits[0];
-        let quiet = ReferenceModel {
-            predictions: reference.predictions.clone(),
-            noise: top.noise.clone(),
-            ..reference.shallow()
-        };
+        let quiet = ReferenceModel { noise: top.noise.clone(), ..reference.clone() };
         let predictions = quiet.estimator().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = quiet.noise_floor(&best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet);

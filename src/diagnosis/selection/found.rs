@@ -73,6 +73,13 @@ pub(crate) struct Found {
     pub without: f64,
 }
 
+impl Found {
+    /// Nothing yet, beside the corrections of `bare`, where the model as it is has the squared residual `before`.
+    pub(super) fn beside(bare: &ReferenceModel, before: f64) -> Self {
+        Self { updated: true, by_size: Vec::new(), agrees: false, before, without: bare.misfit() }
+    }
+}
+
 /// Evidence of a model whose updating parameters are free, with the effects of `fit`; the smaller, the better.
 pub(super) fn cost(reference: &ReferenceModel, fit: Option<&FittedModel>) -> f64 {
     let fit = match fit {

@@ -15,6 +15,7 @@ mod joint_fit;
 pub(crate) mod levenberg_marquardt;
 mod localised;
 pub(crate) mod next_test;
+pub(crate) mod one_level;
 mod pairs;
 pub(crate) mod reference_model;
 mod refinement;

@@ -20,6 +20,7 @@ use std::sync::Arc;
 const POSING: f64 = 20.0;
 
 /// Everything that a search needs about one reference model.
+#[derive(Clone)]
 pub(crate) struct ReferenceModel<'a> {
     /// The known model, its updating parameters at their reference.
     pub predictor: Arc<Predictor>,
@@ -54,12 +55,7 @@ impl<'a> ReferenceModel<'a> {
     #[must_use]
     pub(crate) fn doubting_harmonics(&self) -> ReferenceModel<'a> {
         let linearisation = Linearisation { doubts_harmonics: true, ..(*self.linearisation).clone() };
-        ReferenceModel {
-            linearisation: Arc::new(linearisation),
-            predictions: self.predictions.clone(),
-            noise: self.noise.clone(),
-            ..self.shallow()
-        }
+        ReferenceModel { linearisation: Arc::new(linearisation), ..self.clone() }
     }
 
     /// The same model where higher harmonics count for nothing, as it is updated next.

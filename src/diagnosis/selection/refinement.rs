@@ -132,7 +132,7 @@ impl<'a> ReferenceModel<'a> {
 
     /// The model moved beside the effects of `fit` from where it was stated on, and these then fitted beside it; none where there is no such
     /// model.
-    fn moved_from_stated(
+    pub(super) fn moved_from_stated(
         &self,
         fit: &FittedModel,
         settings: &Settings,

@@ -1,6 +1,7 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
 use super::short_list::{Breadth, promising_places, score_bound};
+use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
 use crate::diagnosis::localisation::cell::{FreeForce, shrunk};
@@ -304,7 +305,9 @@ impl ReferenceModel<'_> {
     /// The laws of `breadth` at a spot beside `effects`.
     fn laws(&self, regressed: &Regressed, effects: &[Source], breadth: Breadth) -> Vec<UnfittedSet> {
         let Regressed { data, fields, simple } = regressed;
-        let fresh = |source: &Source| !effects.iter().any(|e| e.is_same(source)) && self.data.allows(source);
+        let fresh = |source: &Source| {
+            self.data.allows(source) && !effects.iter().any(|e| e.is_same(source) || both_stick(e, source))
+        };
         let fits = if breadth == Breadth::All { data.all_fits(simple.clone()) } else { simple.clone() };
         let unfitted = |fit: LawFit| {
             let score = bayesian_information(fit.misfit, fit.source.parameters.len(), data.count());
@@ -314,6 +317,12 @@ impl ReferenceModel<'_> {
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
         unfitted
     }
+}
+
+/// Whether both are friction at one place: which of them holds what it carries is not determined, and what both are together is another
+/// law of friction.
+fn both_stick(a: &Source, b: &Source) -> bool {
+    a.place.is_same(&b.place) && [a, b].iter().all(|source| friction(source.effect).is_some())
 }
 
 pub(crate) fn joined(first: &[Source], second: &[Source]) -> Vec<Source> {

@@ -40,8 +40,7 @@ fn confirm(reference: &ReferenceModel, found: &mut Found) -> Result<(), Diagnosi
     if settled(best) || best.chi_square > DOUBTFUL * n {
         return Ok(());
     }
-    let quiet =
-        ReferenceModel { noise: last.noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
+    let quiet = ReferenceModel { noise: last.noise.clone(), ..reference.clone() };
     let (fits, noise) = quiet.polished(quiet.singles(Some(best))?)?;
     let Some(more) = fits.first() else { return Ok(()) };
     if reference.evidence(more, 1.0) + CONFIRMED < reference.evidence(best, 1.0) && settled(more) {
@@ -87,11 +86,7 @@ pub(crate) fn explain(
     if !exact.by_size.is_empty() && reference.control.is_late() {
         return Ok(Ok(Outcome { reference, found: exact }));
     }
-    let stated = ReferenceModel {
-        predictions: reference.predictions.clone(),
-        noise: reference.noise.clone(),
-        ..reference.shallow()
-    };
+    let stated = reference.clone();
     let found = beside_updating(reference, before)?;
     let doubtful = |outcome: &Outcome| !outcome.reference.linearisation.updating.is_believable();
     // Corrections that no model needs stand in for a second effect: two may agree with the model as it is.
@@ -139,8 +134,7 @@ pub(crate) fn add_size(
     }
     let Some(best) = fits.first() else { return Ok(false) };
     if let Some(source) = best.effects.last().filter(|_| !hopeless) {
-        let quiet =
-            ReferenceModel { noise: noise.clone(), predictions: reference.predictions.clone(), ..reference.shallow() };
+        let quiet = ReferenceModel { noise: noise.clone(), ..reference.clone() };
         let margin = ELSEWHERE * scale_of(&fits, reference.count());
         let fresh = |r: &FittedModel| !fits.iter().any(|known| same_set(&known.effects, &r.effects));
         let moved: Vec<FittedModel> = quiet.elsewhere(best, source, margin)?.into_iter().filter(fresh).collect();

@@ -312,12 +312,7 @@ impl<'a> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
         let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
-        ReferenceModel {
-            linearisation: Arc::new(linearisation),
-            noise: Arc::new(noise),
-            predictions: self.predictions.clone(),
-            ..self.shallow()
-        }
+        ReferenceModel { linearisation: Arc::new(linearisation), noise: Arc::new(noise), ..self.clone() }
     }
 
     /// The model with the scales that are most likely beside the effects of `fit` (none: the model alone), and the
