@@ -7,6 +7,7 @@ mod common_factor;
 mod comparison;
 mod energy_rows;
 mod force_gain;
+mod frequency_responses;
 mod hidden;
 mod level_series;
 mod missing_force;

@@ -24,15 +24,15 @@ pub(crate) struct Levels {
 /// Least runs to a session from which on sessions are told apart.
 const RUNS_OF_A_SESSION: usize = 4;
 
-/// The session of every run: as they are named, else the level it was measured at; none where there is but one, or hardly a run
-/// to each.
+/// The session of every run: as they are named, else the level it was measured at, or of frequency responses the force that they are
+/// of; none where there is but one, or hardly a run to each.
 pub(crate) fn sessions(problem: &Problem, data: &Data) -> Vec<usize> {
-    if data.per_unit_force {
-        return Vec::new();
-    }
     let names: Option<Vec<&String>> = data.runs.iter().map(|run| problem.runs[run.index].session.as_ref()).collect();
     let numbers = match names {
-        Some(names) => names.iter().map(|name| names.iter().position(|other| other == name).unwrap_or(0)).collect(),
+        Some(names) => first_alike(&names),
+        None if data.per_unit_force => {
+            first_alike(&data.runs.iter().map(|run| run.forces.first().map(|force| &force.name)).collect::<Vec<_>>())
+        }
         None => Levels::new(problem, data).numbers,
     };
     let mut distinct: Vec<usize> = numbers.clone();
@@ -42,6 +42,11 @@ pub(crate) fn sessions(problem: &Problem, data: &Data) -> Vec<usize> {
         return Vec::new();
     }
     numbers.iter().map(|number| distinct.iter().position(|other| other == number).unwrap_or(0)).collect()
+}
+
+/// The number of the first of `keys` that is the same, of each.
+fn first_alike<T: PartialEq>(keys: &[T]) -> Vec<usize> {
+    keys.iter().map(|key| keys.iter().position(|other| other == key).unwrap_or(0)).collect()
 }
 
 impl Levels {

@@ -137,8 +137,9 @@ impl Updating {
             parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
             parameters.extend(responses.into_iter().map(UpdatingParameter::Delay));
         }
-        // The sizes of laws that depend on the amplitude are known no better than the force.
-        if !data.per_unit_force {
+        // The sizes of laws that depend on the amplitude are known no better than the force; of frequency responses to one force its gain
+        // is that of all sensors.
+        if !data.per_unit_force || forces.len() > 1 {
             parameters.extend(forces.into_iter().map(UpdatingParameter::ForceGain));
         }
         let sessions = data.sessions.iter().max().map_or(0, |last| last + 1);

@@ -70,7 +70,7 @@ pub struct ChosenRuns {
 impl ResponseSet {
     /// Makes the runs of the most informative lines, corrected for the known errors of their channels.
     pub(crate) fn runs(&self, selection: Selection, enabled: bool, corrections: &[ChannelCorrection]) -> ChosenRuns {
-        let variances: Vec<Vec<f64>> = self.functions.iter().map(|function| self.variance(function)).collect();
+        let variances = self.variances();
         let references = self.references();
         let densities: Vec<Density> =
             references.iter().map(|members| self.density(members, &variances, selection.band)).collect();
@@ -100,16 +100,21 @@ impl ResponseSet {
         references
     }
 
-    /// Variance of the real (and of the imaginary) part of each value.
-    fn variance(&self, function: &FrequencyResponse) -> Vec<f64> {
-        let measured = match (&function.coherence, self.averages) {
-            (Some(coherence), Some(averages)) if averages > 1 => {
-                variance::from_coherence(&function.values, coherence, averages)
-            }
-            _ => variance::from_scatter(&function.values),
+    /// Variance of the real (and of the imaginary) part of each value of each function.
+    fn variances(&self) -> Vec<Vec<f64>> {
+        let coherence = |function: &FrequencyResponse| {
+            let averages = self.averages.filter(|averages| *averages > 1)?;
+            Some(variance::from_coherence(&function.values, function.coherence.as_ref()?, averages))
         };
-        let least = function.values.iter().map(|h| 0.5 * LEAST_DEVIATION.powi(2) * square(*h));
-        measured.into_iter().zip(least).map(|(variance, least)| variance.max(least)).collect()
+        let known: Vec<Option<Vec<f64>>> = self.functions.iter().map(coherence).collect();
+        let unknown = self.functions.iter().zip(&known).filter(|(_, known)| known.is_none());
+        let share = variance::noise_share(&unknown.map(|(function, _)| &function.values[..]).collect::<Vec<_>>());
+        let of_function = |(function, known): (&FrequencyResponse, Option<Vec<f64>>)| {
+            let measured = known.unwrap_or_else(|| variance::from_scatter(&function.values, share));
+            let least = function.values.iter().map(|h| 0.5 * LEAST_DEVIATION.powi(2) * square(*h));
+            measured.into_iter().zip(least).map(|(variance, least)| variance.max(least)).collect()
+        };
+        self.functions.iter().zip(known).map(of_function).collect()
     }
 
     /// How much each line of a reference says of damping.
