@@ -191,7 +191,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let response = |i: i32| {
             let ratio = f64::from(i) / 300.0;
-            c64::new(1.0, 0.0) / c64::new(1.0 - ratio * ratio, 0.02 * ratio)
+            c64::new(1.0, 0.0) / c64::new(1.0 - ratio * ratio, 0.05 * ratio)
         };
         let share = 0.01;
         let mut noisy = |i: i32| response(i) * (c64::new(1.0, 0.0) + gauss(&mut random) * share);
@@ -202,6 +202,6 @@ mod tests {
         // Without noise the few lines of a crest are no noise.
         let exact: Vec<c64> = (0..600).map(response).collect();
         let crest = from_scatter(&exact, noise_share(&[&exact]))[300].sqrt() / response(300).norm();
-        assert!(crest < 2e-4, "{crest}");
+        assert!(crest < 0.1 * share, "{crest}");
     }
 }
