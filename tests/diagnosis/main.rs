@@ -9,6 +9,7 @@ mod energy_rows;
 mod force_gain;
 mod frequency_responses;
 mod hidden;
+mod hysteresis;
 mod level_series;
 mod missing_force;
 mod points;
