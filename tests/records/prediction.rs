@@ -1,6 +1,6 @@
 //! Predicted records against closed forms, an independent fine integration, and differences of themselves.
 
-use crate::common::models::{oscillator, short_cantilever, source};
+use crate::common::models::{oscillator, short_cantilever, source, whole};
 use dashpot::effects::{Effect, Source};
 use dashpot::measurement::{Channel, Quantity};
 use dashpot::response::time_integration::TimeModel;
@@ -85,6 +85,35 @@ impl Case {
 
 fn quiet(step: f64, samples: usize, substeps: usize) -> SampledForces {
     SampledForces { step, samples, forces: Vec::new(), substeps, every: 1, step_lengths: Vec::new() }
+}
+
+/// A dashpot steps with the linear part, a power law of exponent 1 as an element of its own: the same record, also where what lies above the
+/// kept modes swings faster than the samples follow (the force at the tip, three samples a cycle of that).
+#[test]
+fn a_linear_model_is_predicted_as_one_with_elements() {
+    let (step, samples) = (1.5e-3, 1200);
+    let force = |n: usize| (85.0 * n as f64 * step).sin() + (520.0 * n as f64 * step).sin();
+    let case = |damper: Source| Case {
+        structure: short_cantilever(6),
+        sources: vec![whole(Effect::StiffnessProportional, 2e-5), damper],
+        channels: channels(&[(Quantity::Acceleration, 10), (Quantity::Acceleration, 4)]),
+        drives: vec![10],
+        kept: 2,
+        forces: SampledForces { forces: vec![(0..samples).map(force).collect()], ..quiet(step, samples, 8) },
+        initial: vec![0.0; 4],
+        factors: [1.0; 2],
+        shape_errors: vec![],
+        parts: vec![],
+        directions: vec![],
+        told_step: 1.0,
+    };
+    let linear = case(source(Effect::Viscous, &[8], &[0.5])).run(&[]).channels;
+    let stepped = case(source(Effect::Power, &[8], &[0.5, 1.0])).run(&[]).channels;
+    for (own, other) in linear.iter().zip(&stepped) {
+        let size = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let apart = own.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!(apart < 3e-3 * size, "{}", apart / size);
+    }
 }
 
 /// Friction that holds a mode which a step does not resolve leaves derivatives that stay finite: the steps are cut to resolve it.

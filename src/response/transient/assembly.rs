@@ -130,10 +130,9 @@ pub(super) fn assemble(
         changes.push((TransientParameter::Source { source: index, parameter: 0 }, by));
     }
     let linear = setup.sources.iter().all(|s| is_linear(s.effect));
-    let step = setup.step[usize::from(!linear)];
     for r in reduction.kept..size {
         let omega = reduction.omega[r];
-        total.damping[(r, r)] += 2.0 * residual_damping(omega * step, linear) * omega;
+        total.damping[(r, r)] += 2.0 * residual_damping(setup.step.map(|step| omega * step), linear) * omega;
     }
     changes.push((TransientParameter::Stiffness, by_stiffness));
     changes.push((TransientParameter::Mass, by_mass));
@@ -168,14 +167,16 @@ fn add_parts(setup: &TransientSetup, reduction: &Reduction, own: &mut Matrices) 
     changes.into_iter().enumerate().map(|(k, by)| (TransientParameter::Direction(k), by)).collect()
 }
 
-/// Damping ratio of a residual coordinate that moves by `phase` rad in a step. One that swings faster than the steps can follow
-/// would ring under forces that jump from step to step, and its alias would turn the sign of what holds friction at rest. Of a linear
-/// model no force jumps: there a coordinate within the sampled band moves as it does, or the driving point would be late.
-fn residual_damping(phase: f64, linear: bool) -> f64 {
-    if linear && phase < PI {
+/// Damping ratio of a residual coordinate that moves by so many rad from sample to sample and in a step of a model that is not linear. One
+/// that swings faster than the steps can follow would ring under forces that jump from step to step, and its alias would turn the sign of
+/// what holds friction at rest. Of a linear model no force jumps: there a coordinate within the sampled band moves as it does, or the
+/// driving point would be late. One beyond it is braked as in a model that is not linear, or a law that adds nothing would leave less than
+/// none.
+fn residual_damping([sample, step]: [f64; 2], linear: bool) -> f64 {
+    if linear && sample < PI {
         return RESIDUAL_DAMPING;
     }
-    (phase / RESOLVED).powi(4).clamp(RESIDUAL_DAMPING, 1.0)
+    (step / RESOLVED).powi(4).clamp(RESIDUAL_DAMPING, 1.0)
 }
 
 /// What a linear source of unit parameter adds to its matrix.
