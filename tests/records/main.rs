@@ -6,6 +6,7 @@ mod amplitude;
 mod common;
 mod complete;
 mod diagnose;
+mod hidden_mass;
 mod measured;
 mod motor_drive;
 mod prediction;

@@ -37,7 +37,8 @@ impl Search<'_> {
         let before = diagnosis.clone();
         self.conclude_found(by_size, diagnosis)?;
         let bare = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
-        let Some((level, bare)) = bare.filter(|_| is_needless(&diagnosis.steps) && !self.control.is_late()) else {
+        let is_needless = |fit: &FittedRecords| is_needless(&diagnosis.steps) && !self.is_plainer(by_size, fit);
+        let Some((level, bare)) = bare.filter(|(_, fit)| is_needless(fit) && !self.control.is_late()) else {
             return Ok(());
         };
         let start = self.carried(bare, *level, self.levels.len() - 1)?;

@@ -55,6 +55,7 @@ mod score;
 mod search;
 mod shape_errors;
 mod single_change;
+mod special_cases;
 pub mod spectrum;
 mod starts;
 mod stated_fit;

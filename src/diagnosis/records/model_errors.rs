@@ -2,6 +2,7 @@
 //! states a little wrongly. Where it corrects a part of the structure it is told as that, else not at all.
 
 use super::fitted::FittedRecords;
+use super::part_directions::PART;
 use super::search::factors_of;
 use super::suggestions::added;
 use crate::diagnosis::updating::correction::Correction;
@@ -16,6 +17,8 @@ use crate::structure::{Part, Structure};
 const ERRORS: f64 = 6.0;
 const TOGETHER: [f64; 2] = [0.03, 0.25];
 const SLIGHT: f64 = 0.2;
+/// The same where every spring and mass is corrected by itself, five times what one is believed to be off: there it stands for no other.
+const OF_PART: f64 = 5.0 * PART;
 
 /// Masses and springs that are errors of the model.
 pub(super) struct ModelErrors {
@@ -30,7 +33,10 @@ impl ModelErrors {
     pub(super) fn of(structure: &Structure, fit: &FittedRecords) -> Self {
         let mut errors = Self { sources: Vec::new(), corrections: Vec::new() };
         let shapes: Vec<f64> = fit.shapes.iter().flatten().copied().collect();
-        let together = (ERRORS * root_mean_square(&shapes)).clamp(TOGETHER[0], TOGETHER[1]);
+        let mut together = (ERRORS * root_mean_square(&shapes)).clamp(TOGETHER[0], TOGETHER[1]);
+        if !fit.parts.is_empty() && structure.elements().is_empty() {
+            together = together.min(OF_PART);
+        }
         for added in added(fit) {
             let all = if added.source.effect.adds_to(Constant::Mass) { fit.mass } else { fit.stiffness };
             let deviation = added.deviations.first().copied();

@@ -18,7 +18,7 @@ use dashpot_numerics::Cholesky;
 use faer::Mat;
 
 /// Prior deviation of the logarithm of a part.
-const PART: f64 = 0.02;
+pub(super) const PART: f64 = 0.02;
 /// Relative change of the modal matrices by one deviation below which a direction is left out, and most directions beyond the
 /// number of modes.
 const LEAST: f64 = 1e-3;

@@ -14,7 +14,7 @@ use crate::response::transient::TransientParameter;
 
 /// Prior deviation of the logarithm of all stiffness, of the size of a known source or the damping of a mode, of the stiffness of one record, of that of
 /// a mode, of all mass, of the shape of a mode at a sensor, of an offset over the largest sample.
-const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
+pub(super) const PRIORS: [f64; 7] = [ALL, 0.15, 0.002, 0.02, 0.02, 0.02, 0.01];
 /// Degrees of freedom of the distribution of damping below what is stated: the fewest whole number with which it has a variance.
 const TAIL: f64 = 3.0;
 /// Largest change of a logarithm in one step.

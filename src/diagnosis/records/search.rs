@@ -307,8 +307,9 @@ impl Search<'_> {
             found = self.with_begun(level, found, &elsewhere)?;
         }
         let found = self.moved_along(level, found)?;
-        let freed = level + 1 == self.levels.len() || self.is_freed_early();
-        if freed { self.with_best_freed(level, found) } else { Ok(found) }
+        let whole = level + 1 == self.levels.len();
+        let found = if whole || self.is_freed_early() { self.with_best_freed(level, found)? } else { found };
+        if whole { self.told_as_special_cases(level, found) } else { Ok(found) }
     }
 
     /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is pruned.

@@ -10,10 +10,13 @@
 use super::data::{RecordError, Records};
 use super::evidence::{AGREES, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
-use super::problem::{FitProblem, Free, modes};
-use super::search::Search;
+use super::part_directions::PART;
+use super::problem::{FitProblem, Free, PRIORS, modes};
+use super::search::{Search, SetsBySize};
+use crate::diagnosis::updating::part_error::{size_of, takes_away};
 use crate::effects::{Constant, Effect, Family, Place, Source, State};
 use crate::math::least_squares::LeastSquares;
+use crate::structure::Part;
 use faer::Mat;
 
 /// Places and laws that are fitted, and the steps of their fits.
@@ -21,19 +24,102 @@ const FITTED: usize = 4;
 const STEPS: usize = 10;
 /// Fewest modes whose frequencies can tell a place.
 const FEWEST_MODES: usize = 3;
+/// Corrections over their prior deviations up to which they are errors as every model has them, which stand for nothing else.
+const BELIEVED: f64 = 2.0;
+/// The largest from which on it is asked whether one mass or spring beside all corrections makes it ordinary.
+const OUTLYING: f64 = 4.0;
+/// Rounds and steps of a fit beside all corrections, times that it goes on, and the gain of evidence below which it does not.
+const ROUNDS: [usize; 2] = [3, 4];
+const AGAIN: usize = 6;
+const LITTLE: f64 = 1.0;
 /// Gain of evidence that is asked for.
 const GAIN: f64 = 12.0;
 
 impl Search<'_> {
-    /// Fits of one mass or spring to whole records, best first, where `corrected` needs the stiffness of single modes and they do
-    /// not.
+    /// Fits of one mass or spring to whole records, best first, where `corrected` needs more than errors as every model has them and they do
+    /// not: in place of the stiffness of single modes, else beside all corrections.
     pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+        let alone = self.changes_alone(corrected)?;
+        if alone.is_empty() { self.changes_beside(corrected) } else { Ok(alone) }
+    }
+
+    /// Those beside all corrections, of which one is far beyond what is believed.
+    fn changes_beside(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+        let level = self.levels.len() - 1;
+        if misfit(corrected) > AGREES || !self.is_outlying(corrected) || self.control.is_late() {
+            return Ok(Vec::new());
+        }
+        let laws: Vec<Effect> = self.laws.iter().copied().filter(|effect| effect.is_mass_or_spring()).collect();
+        let mut starts = self.in_place_of_parts(corrected);
+        starts.extend(self.scored(level, corrected, &self.all_places(), &laws).0);
+        let unit = scale(corrected);
+        // What corrections stand for goes over to the effect step by step: they hold each other along a valley of the priors.
+        let fit = |k: usize| {
+            let mut fit = self.fit(level, &starts[k], 1.0, ROUNDS).ok()?;
+            for _ in 0..AGAIN {
+                let next = self.fit(level, &fit, 1.0, ROUNDS).ok()?;
+                let gain = evidence(&fit, unit) - evidence(&next, unit);
+                fit = next;
+                if gain < LITTLE {
+                    break;
+                }
+            }
+            Some(fit)
+        };
+        let mut found: Vec<FittedRecords> =
+            self.control.map(starts.len().min(FITTED), fit).into_iter().flatten().collect();
+        self.control.check()?;
+        found.retain(|f| misfit(f) < AGREES && evidence(f, unit) + GAIN < evidence(corrected, unit));
+        found.retain(|f| !f.effects.last().is_some_and(takes_away));
+        found.sort_by(|a, b| evidence(a, unit).total_cmp(&evidence(b, unit)));
+        Ok(found)
+    }
+
+    /// `corrected` with a mass or spring in place of each part that is corrected far beyond what is believed.
+    fn in_place_of_parts(&self, corrected: &FittedRecords) -> Vec<FittedRecords> {
+        let (records, structure) = (self.records, self.records.structure);
+        let in_place_of = |(p, (part, logarithm)): (usize, (Part, f64))| {
+            let (kind, place) = match part {
+                Part::PointMass(dof) => (Constant::Mass, vec![dof]),
+                Part::GroundSpring(dof) => (Constant::Stiffness, vec![dof]),
+                Part::Coupling(pair) => (Constant::Stiffness, pair.to_vec()),
+                _ => return None,
+            };
+            let effect = self.laws.iter().copied().find(|e| e.is_mass_or_spring() && e.adds_to(kind))?;
+            let size = size_of(structure, part) * logarithm.exp_m1();
+            let mut start = corrected.clone();
+            start.effects.push(Source::known(effect, Place::Dofs(place), &[size]));
+            // The directions are orthogonal: what the part is wrong by, taken out of each.
+            let weights = records.parts.weights.iter();
+            start.parts.iter_mut().zip(weights).for_each(|(z, w)| *z -= w[p] * logarithm / PART.powi(2));
+            (logarithm > OUTLYING * PART && size > 0.0).then_some(start)
+        };
+        let starts = records.parts.logarithms(&corrected.parts).into_iter().enumerate().filter_map(in_place_of);
+        starts.filter(|s| !self.excluded.iter().any(|e| s.effects.iter().any(|own| own.is_same(e)))).collect()
+    }
+
+    /// Whether the best set of one mass or spring is more likely than `corrected`, which needs a correction far beyond what is believed.
+    pub(super) fn is_plainer(&self, by_size: &SetsBySize, corrected: &FittedRecords) -> bool {
+        let unit = scale(corrected);
+        let gain = |single: &FittedRecords| evidence(corrected, unit) - evidence(single, unit);
+        self.is_outlying(corrected) && by_size.last.first().is_some_and(|single| gain(single) > GAIN)
+    }
+
+    /// Whether one correction of a fit of whole records is far beyond what is believed.
+    fn is_outlying(&self, fit: &FittedRecords) -> bool {
+        let parts = self.records.parts.logarithms(&fit.parts);
+        let most = parts.iter().map(|(_, v)| v.abs() / PART).fold(0.0, f64::max);
+        largest_correction(fit).max(most) > OUTLYING
+    }
+
+    /// Those in place of the stiffness of single modes, which `corrected` needs.
+    fn changes_alone(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
         let records = self.whole();
         let fit = |start: &FittedRecords| {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control: self.control }
                 .improve(start, STEPS)
         };
-        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES {
+        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES || largest_correction(corrected) < BELIEVED {
             return Ok(Vec::new());
         }
         let by_parts = records.stiffness_by_parts(&corrected.parts);
@@ -63,6 +149,12 @@ impl Search<'_> {
         found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         Ok(found)
     }
+}
+
+/// The largest correction of the stiffness of a mode or of a part over its prior deviation.
+fn largest_correction(fit: &FittedRecords) -> f64 {
+    let of_modes = fit.modes.iter().map(|v| v / PRIORS[3]);
+    of_modes.chain(fit.parts.iter().copied()).fold(0.0, |most, v| most.max(v.abs()))
 }
 
 /// Masses and springs with the logarithm of all stiffness beside them, in the order in which they explain the stiffness of the

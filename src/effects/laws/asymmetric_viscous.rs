@@ -4,7 +4,7 @@
 use crate::effects::description::{Description, Exponents};
 use crate::effects::effect::Effect;
 use crate::effects::law::{Point, Variable};
-use crate::effects::limits::{Limit, alike};
+use crate::effects::limits::{CLOSE, Limit};
 use crate::effects::memoryless::MemorylessLaw;
 use crate::effects::parameter::Parameter;
 use crate::effects::symbol::Mark;
@@ -21,7 +21,8 @@ const DESCRIPTION: Description = Description {
     exponents: |_| Exponents::damping(0.0, 0.0),
     limits: &[Limit {
         law: Effect::Viscous,
-        holds: |p, _| alike(p[0], p[1]),
+        // Of a force of the mean of both the difference is half of theirs.
+        holds: |p, _| (p[0] - p[1]).abs() < CLOSE * (p[0] + p[1]),
         parameters: |p| vec![0.5 * (p[0] + p[1])],
     }],
     symbol: &[
