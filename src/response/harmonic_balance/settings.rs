@@ -2,6 +2,10 @@
 
 use crate::control::Control;
 
+/// Newton steps from which on a response is given up where somebody waits for the best so far: without that of the model as it is there is
+/// no answer at all.
+const HURRIED: usize = 80;
+
 /// How many harmonics, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
@@ -39,7 +43,7 @@ impl Settings {
     /// Whether to make no further attempt after so many Newton steps: patience is at its end, or somebody who has little of
     /// it waits for the best so far.
     pub(crate) fn gives_up(&self, steps: usize, control: &Control) -> bool {
-        steps > self.patience || (self.patience < usize::MAX && control.is_late())
+        steps > self.patience || (self.patience < usize::MAX && steps > HURRIED && control.is_late())
     }
 
     /// A fixed number of harmonics.
@@ -52,12 +56,13 @@ impl Settings {
 mod tests {
     use super::*;
 
-    /// Who asked for an answer at any price gets it; who has patience of a length is answered when time is up.
+    /// Who asked for an answer at any price gets it; who has patience of a length is answered soon when time is up.
     #[test]
     fn patience_ends_by_steps_and_by_time() {
-        let (control, patient) = (Control::unattended(), Settings { patience: 80, ..Settings::default() });
-        assert!(!patient.gives_up(80, &control) && patient.gives_up(81, &control));
+        let (control, patient) = (Control::unattended(), Settings { patience: 250, ..Settings::default() });
+        assert!(!patient.gives_up(250, &control) && patient.gives_up(251, &control));
         control.hurry();
-        assert!(patient.gives_up(0, &control) && !Settings::default().gives_up(usize::MAX, &control));
+        assert!(!patient.gives_up(HURRIED, &control) && patient.gives_up(HURRIED + 1, &control));
+        assert!(!Settings::default().gives_up(usize::MAX, &control));
     }
 }
