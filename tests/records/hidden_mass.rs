@@ -12,8 +12,8 @@ const GROUND: f64 = 90_000.0;
 const TRUE_MASSES: [f64; 5] = [0.995, 1.002, 1.011, 0.966, 0.996];
 const TRUE_COUPLING: [f64; 4] = [1.001, 1.029, 0.994, 0.94];
 const TRUE_GROUND: f64 = 0.969;
-/// Force, N, and band, Hz, of three sweeps.
-const SWEEPS: [[f64; 3]; 3] = [[4.0, 4.0, 22.0], [8.0, 22.0, 60.0], [2.0, 30.0, 75.0]];
+/// Force, N, and band, Hz, of two sweeps.
+const SWEEPS: [[f64; 3]; 2] = [[4.0, 4.0, 22.0], [8.0, 22.0, 60.0]];
 
 fn run(words: &[&str], paths: &[&Path]) -> String {
     let words = ["dashpot"].iter().chain(words).map(Into::into);
@@ -43,11 +43,11 @@ fn diagnosed(mass: f64) -> Value {
         let head = format!("[[run]]\nfile = \"{k}.csv\"\nkind = \"transient\"\n");
         measured.push_str(&head);
         swept.push_str(&format!(
-            "{head}excitation = {{ kind = \"sweep\", dof = 5, force_n = {force:?}, from_hz = {from:?}, to_hz = {to:?}, duration_s = 8.0 }}\n"
+            "{head}excitation = {{ kind = \"sweep\", dof = 5, force_n = {force:?}, from_hz = {from:?}, to_hz = {to:?}, duration_s = 4.0 }}\n"
         ));
     }
     let channels: String = (1..=5).map(|dof| format!(", \"acc@{dof} [m/s^2]\"")).collect();
-    let simulate = format!("[simulate]\nchannels = [\"force@5 [N]\"{channels}]\nrate_hz = 600.0\n");
+    let simulate = format!("[simulate]\nchannels = [\"force@5 [N]\"{channels}]\nrate_hz = 300.0\n");
     let (truth, project) = (folder.path().join("truth.toml"), folder.path().join("project.toml"));
     let is = chain(product(MASSES, TRUE_MASSES), GROUND * TRUE_GROUND, product(COUPLING, TRUE_COUPLING));
     let hidden = if mass > 0.0 { hidden } else { String::new() };
