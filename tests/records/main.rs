@@ -1,5 +1,5 @@
 //! Records that are not steady: prediction with derivatives, exact spectrum, amplitude curves, what the model lacks.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 mod amplitude;
 #[path = "../common/mod.rs"]
