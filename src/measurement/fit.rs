@@ -8,6 +8,7 @@
 
 use super::channel::Channel;
 use super::design::Design;
+use super::higher_harmonics::{further, leaks};
 use super::noise::Lag;
 use super::record::Record;
 use super::slope::Slope;
@@ -117,18 +118,20 @@ pub(super) struct Solved<'a> {
 
 /// Fits harmonics 1 to `harmonics` of the circular frequency `omega` (rad/s) to every channel.
 ///
-/// Harmonics that the sampling cannot resolve are left out: harmonic `h` needs `h f <= f_s/2 - 1/duration`, so that it
-/// and its mirror image are at least two lines apart, and the record two samples an unknown.
+/// Higher ones that would leak into these are fitted beside them. Harmonics that the sampling cannot resolve are left out:
+/// harmonic `h` needs `h f <= f_s/2 - 1/duration`, so that it and its mirror image are at least two lines apart, and the record two
+/// samples an unknown.
 ///
 /// # Errors
 /// [`FitError`] where not even the first harmonic can be fitted, or the record is shorter than a period.
 pub fn fit(record: &Record, omega: f64, harmonics: usize) -> Result<HarmonicFit, FitError> {
     let harmonics = resolvable(record.time(), omega, harmonics)?;
     let values: Vec<&[f64]> = record.samples.iter().map(Vec::as_slice).collect();
-    let solved = solve(record.time(), &values, omega, harmonics)?;
-    let noise = noise_variances(record, omega, &solved);
+    let (solved, noise) = solve_without_leakage(record, &values, omega, harmonics)?;
     let channels = record.channels().iter().enumerate().map(|(c, channel)| {
-        let (amplitudes, unit_covariance) = solved.amplitudes(c, omega);
+        let (mut amplitudes, unit_covariance) = solved.amplitudes(c, omega);
+        amplitudes.truncate(harmonics);
+        let unit_covariance = unit_covariance.submatrix(0, 0, 2 * harmonics, 2 * harmonics).to_owned();
         ChannelFit {
             channel: channel.clone(),
             offset: solved.unknowns[c][0],
@@ -139,6 +142,31 @@ pub fn fit(record: &Record, omega: f64, harmonics: usize) -> Result<HarmonicFit,
         }
     });
     Ok(HarmonicFit { omega, omega_deviation: 0.0, channels: channels.collect() })
+}
+
+/// The fit of harmonics up to `harmonics`, or up to more, so that none that is left out adds to these more than a share of their noise;
+/// with the variance of the noise of one sample of every channel.
+fn solve_without_leakage<'a>(
+    record: &'a Record,
+    values: &[&'a [f64]],
+    omega: f64,
+    harmonics: usize,
+) -> Result<(Solved<'a>, Vec<f64>), FitError> {
+    let (time, count) = (record.time(), record.len());
+    let periods = record.duration() * count as f64 / (count as f64 - 1.0) * omega / TAU;
+    let mut fitted = harmonics;
+    let mut solved = solve(time, values, omega, fitted)?;
+    loop {
+        let noise = noise_variances(record, omega, &solved);
+        let more = resolvable(time, omega, further(fitted))?;
+        let left = |c: usize| solved.squares(c) / count as f64;
+        if more <= fitted || !noise.iter().enumerate().any(|(c, noise)| leaks(periods, count, left(c), *noise)) {
+            return Ok((solved, noise));
+        }
+        // Records with gaps may not determine more.
+        let Ok(wider) = solve(time, values, omega, more) else { return Ok((solved, noise)) };
+        (solved, fitted) = (wider, more);
+    }
 }
 
 /// The number of harmonics that samples at these times resolve, at most `harmonics`.
@@ -256,7 +284,7 @@ pub(super) fn turn_covariance(covariance: &Mat<f64>, factors: &[c64]) -> Mat<f64
 }
 
 /// Variance of the noise of one sample of every channel.
-fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64> {
+pub(super) fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64> {
     let period = TAU / omega;
     let periods = record.duration() / period;
     let enough = periods + 1e-9 >= FEWEST_PERIODS_FOR_SCATTER;
@@ -270,4 +298,28 @@ fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64>
         (measured + hidden).max((ROUNDING * largest).powi(2))
     };
     (0..record.channels().len()).map(variance).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::measurement::channel::Quantity;
+
+    /// 20.4 periods of a fundamental with harmonics 2 to 15 of a tenth each: the three that are asked for are those that are there.
+    #[test]
+    fn harmonics_above_those_asked_for_do_not_leak_into_them() {
+        let (omega, rate) = (TAU, 64.0);
+        let time: Vec<f64> = (0..(20.4 * rate) as usize).map(|n| n as f64 / rate).collect();
+        let size = |h: usize| if h == 1 { 1.0 } else { 0.1 };
+        let value = |t: &f64| (1..=15).map(|h| size(h) * (h as f64 * omega * t).cos()).sum::<f64>();
+        let samples = vec![time.iter().map(value).collect()];
+        let channel = Channel { quantity: Quantity::Acceleration, dof: 0, label: "1".into() };
+        let record = Record::new(time, vec![channel], samples).unwrap();
+        let fitted = fit(&record, omega, 3).unwrap();
+        assert_eq!(fitted.harmonics(), 3);
+        for (i, amplitude) in fitted.channels[0].amplitudes.iter().enumerate() {
+            assert!((amplitude - size(i + 1)).norm() < 1e-9, "{amplitude} of harmonic {}", i + 1);
+        }
+    }
 }

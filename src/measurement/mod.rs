@@ -15,6 +15,7 @@ pub mod fit;
 pub mod frequency;
 pub(crate) mod frf;
 mod fundamentals;
+mod higher_harmonics;
 pub(crate) mod kind;
 mod noise;
 pub(crate) mod proposal;

@@ -213,9 +213,14 @@ impl Screen {
         self.left(&[], |cell| cell.total)
     }
 
+    /// What free forces at one place and the parameters leave.
+    pub(crate) fn left_by(&self, spot: usize) -> f64 {
+        self.left(&[spot], |cell| cell.left_by(spot))
+    }
+
     /// Every single place, best first.
     pub(crate) fn singles(&self) -> Vec<Placing> {
-        let single_place = |s: usize| Placing { spots: vec![s], chi_square: self.left(&[s], |cell| cell.left_by(s)) };
+        let single_place = |s: usize| Placing { spots: vec![s], chi_square: self.left_by(s) };
         sorted((0..self.spots.len()).map(single_place).collect())
     }
 

@@ -146,7 +146,8 @@ fn first_candidates<'a>(
 impl ReferenceModel<'_> {
     /// Whether this model, corrected and without any effect, explains the runs by what is free from run to run alone.
     fn is_scatter(&self) -> Result<bool, DiagnosisError> {
-        Ok(explains_by_scatter(self.error_of_structure(&[], &Vec::new())?, self.floor()))
+        let errors = [self.error_of_structure(&[], &Vec::new())?, self.floor()];
+        self.leaves(explains_by_scatter, errors, (&[], &Vec::new()))
     }
 
     pub(super) fn floor(&self) -> f64 {

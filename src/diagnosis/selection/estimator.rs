@@ -1,7 +1,7 @@
 //! Predictions of all runs and their whitened residuals: what fits on the response are made with.
 
 use crate::control::Control;
-use crate::diagnosis::residual::data::{ChannelData, Data, DiagnosisError, size};
+use crate::diagnosis::residual::data::{ChannelData, Data, DiagnosisError, RunData, size};
 use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction, SEARCH};
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Kind, Place, Source};
@@ -94,17 +94,22 @@ impl Estimator<'_> {
     /// Relative root mean square error of predictions with `effects` over runs and channels, those among them that read wrongly being
     /// mended.
     pub(crate) fn error(&self, predictions: &[RunPrediction], effects: &[Source]) -> f64 {
-        let mut errors = Vec::new();
-        for (run, prediction) in self.data.runs.iter().zip(predictions) {
+        root_mean_square(&self.errors(predictions, effects).concat())
+    }
+
+    /// The same of every run and channel.
+    pub(super) fn errors(&self, predictions: &[RunPrediction], effects: &[Source]) -> Vec<Vec<f64>> {
+        let errors_of_run = |(run, prediction): (&RunData, &RunPrediction)| {
             let gain = |channel: &ChannelData| gain_of(effects, &channel.name, run.omega);
-            for (c, channel) in run.responses.iter().enumerate() {
+            let error_of_channel = |(c, channel): (usize, &ChannelData)| {
                 let pairs = channel.measured.iter().zip(&prediction.channels[c]);
                 let difference: Vec<c64> = pairs.map(|(y, m)| y - m).collect();
                 let scale = run.scale_beside(c, gain);
-                errors.push(if scale > 0.0 { size(&difference) / scale } else { 0.0 });
-            }
-        }
-        root_mean_square(&errors)
+                if scale > 0.0 { size(&difference) / scale } else { 0.0 }
+            };
+            run.responses.iter().enumerate().map(error_of_channel).collect()
+        };
+        self.data.runs.iter().zip(predictions).map(errors_of_run).collect()
     }
 }
 

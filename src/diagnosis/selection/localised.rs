@@ -17,6 +17,9 @@ use crate::diagnosis::updating::parameters::Updating;
 
 /// Steps of the model.
 const STEPS: usize = 8;
+/// Places beside which alone the model is moved, of each model that this starts from, and its steps there.
+const PATHS: usize = 4;
+const STEPS_OF_PLACE: usize = 12;
 /// Squared residual per datum that a law may leave at the measured motion where the model is close enough to be refined.
 const CLOSE: f64 = 2.0;
 /// Share of its squared residual to which a step must bring the best place.
@@ -73,7 +76,13 @@ impl<'a> ReferenceModel<'a> {
         &self,
     ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
-        let here = self.moved_beside(Updating::all(stated, known, self.data))?;
+        let mut here = self.moved_beside(Updating::all(stated, known, self.data))?;
+        if here.least.min(here.free) > CLOSE * self.count() as f64
+            && let Some(updating) = self.best_path(&here)?
+        {
+            let there = self.moved_beside(updating)?;
+            here = if there.least < here.least { there } else { here };
+        }
         if let Some(fault) = self.doubted(&here)? {
             return Ok(Err(fault));
         }
@@ -113,6 +122,48 @@ impl<'a> ReferenceModel<'a> {
             here = here.seen_wider()?;
         }
         Ok(here)
+    }
+
+    /// Where the model ends that is moved beside free forces at one place alone, of those that leave least to begin with; none where none
+    /// comes nearer than `here`. A descent along whatever place leaves least at each step may lead from one false place to the next.
+    fn best_path(&self, here: &Seen<'a>) -> Result<Option<Updating>, DiagnosisError> {
+        let (stated, known) = self.predictor.stated();
+        let rigid = Updating::all(stated, known, self.data);
+        let mut starts = vec![rigid.clone(), here.reference.linearisation.updating.clone()];
+        starts.extend(rigid.giving_way());
+        let mut paths: Vec<(&Updating, usize)> = Vec::new();
+        for start in &starts {
+            let Some(reference) = if_possible(self.updated(start, &[], &Vec::new()))? else { continue };
+            let placings = reference.view(None)?.screen.singles();
+            paths.extend(placings.iter().take(PATHS).map(|placing| (start, placing.spots[0])));
+        }
+        let follow = |k: usize| self.moved_beside_place(paths[k].0.clone(), paths[k].1);
+        let ends = self.control.map(paths.len(), follow).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let least = ends.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(least.filter(|(left, _)| *left < FALLING * here.free).map(|(_, updating)| updating))
+    }
+
+    /// The updating parameters that fit best beside free forces at the place number `spot`, from `updating` on, with what these leave.
+    fn moved_beside_place(
+        &self,
+        mut updating: Updating,
+        spot: usize,
+    ) -> Result<Option<(f64, Updating)>, DiagnosisError> {
+        let mut best: Option<(f64, Updating)> = None;
+        for _ in 0..STEPS_OF_PLACE {
+            let Some(reference) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { break };
+            let screen = reference.view(None)?.screen;
+            let left = screen.left_by(spot);
+            let slow = best.as_ref().is_some_and(|(least, _)| left > FALLING * least);
+            if best.as_ref().is_none_or(|(least, _)| left < *least) {
+                best = Some((left, updating));
+            }
+            if slow || left < self.count() as f64 || self.control.is_late() {
+                break;
+            }
+            updating = reference.towards(&screen.updated(&[spot]));
+        }
+        Ok(best)
     }
 
     /// This model with what the best law leaves, of which some were `regressed` before.

@@ -30,6 +30,7 @@ mod solver_settings;
 #[cfg(test)]
 mod stated_chain;
 pub(crate) mod stepwise;
+mod structure_error;
 mod successive_linearisation;
 mod two_laws;
 pub(crate) mod updated;

@@ -1,10 +1,9 @@
 //! The model with its updating parameters moved to where the data ask for them, and linearised there.
 
-use crate::diagnosis::residual::branch::{distance, nearest};
 use crate::diagnosis::residual::data::{Data, DiagnosisError, RunData, if_possible};
 use crate::diagnosis::residual::energy_balance::scaled_factors;
-use crate::diagnosis::residual::prediction::{FINAL, Predictor, RunPrediction};
-use crate::diagnosis::selection::estimator::{Estimator, Starts};
+use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
+use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::found::{agrees, most_of_noise};
@@ -17,7 +16,7 @@ use crate::diagnosis::updating::scales::Scales;
 use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
-use crate::response::harmonic_balance::{ResponseError, Settings};
+use crate::response::harmonic_balance::Settings;
 use crate::response::sensitivity::Unknown;
 use faer::c64;
 use std::sync::Arc;
@@ -88,9 +87,14 @@ impl<'a> ReferenceModel<'a> {
             let mut sums: Vec<Vec<(Unknown, f64)>> =
                 (0..updating.len()).map(|k| updating.unknowns(k, known, run)).collect();
             sums.push(vec![(Unknown::Stiffness, 1.0)]);
-            let mut slopes = match &seen {
-                Some(seen) => seen.slopes(r, &sums),
-                None => self.model_slopes(r, effects, &predictions[r], &sums),
+            let (mut slopes, level) = match &seen {
+                Some(seen) => (seen.slopes(r, &sums), None),
+                None => {
+                    sums.push((0..run.forces.len()).map(|force| (Unknown::ForceScale(force), 1.0)).collect());
+                    let mut slopes = self.model_slopes(r, effects, &predictions[r], &sums);
+                    let level = slopes.pop();
+                    (slopes, level.filter(is_felt))
+                }
             };
             let mut stiffness = slopes.pop().unwrap_or_default();
             if seen.is_some() {
@@ -106,10 +110,11 @@ impl<'a> ReferenceModel<'a> {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }
-            (slopes, stiffness)
+            (slopes, [stiffness, level.unwrap_or_else(|| amplitudes[r].clone())])
         };
-        let (mut common, stiffness): (Vec<RunSlopes>, Vec<_>) =
+        let (mut common, own): (Vec<RunSlopes>, Vec<_>) =
             self.control.map(self.data.runs.len(), of_run).into_iter().unzip();
+        let (stiffness, level) = own.into_iter().map(|[stiffness, level]| (stiffness, level)).unzip();
         let at_motion = if seen.is_some() && doubts_harmonics { common.clone() } else { Vec::new() };
         // Beside effects the model is fitted on the response itself: what harmonics tell of it is told there.
         for slopes in common.iter_mut().filter(|_| seen.is_some()) {
@@ -125,6 +130,7 @@ impl<'a> ReferenceModel<'a> {
             doubts_harmonics,
             of_fundamentals: self.linearisation.of_fundamentals,
             stiffness,
+            level,
             expansions,
             leverage,
             amplitudes,
@@ -250,40 +256,6 @@ impl<'a> ReferenceModel<'a> {
         Ok((reference, cost))
     }
 
-    /// Relative error of this model with `effects`, all runs alike, as `compare` tells it of a project in which the corrections
-    /// are taken over.
-    pub(crate) fn error_of_structure(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let predictor = self.of_structure()?;
-        let estimator = Estimator { predictor: &predictor, ..self.estimator() };
-        let mut predictions = estimator.predict(effects, &FINAL, starts)?;
-        // A run whose motion is not that of its start any more may have ended on another branch than `compare` looks for.
-        let far: Vec<usize> = (0..predictions.len())
-            .filter(|&r| distance(&self.data.runs[r], &predictions[r]) > FAR * FAR)
-            .filter(|_| effects.iter().chain(predictor.known()).any(|source| !source.effect.is_linear()))
-            .collect();
-        let near = |k: usize| nearest(&predictor, far[k], &self.data.runs[far[k]], effects, self.control);
-        for (near, &r) in self.control.map(far.len(), near).into_iter().zip(&far) {
-            match near {
-                Ok((prediction, _)) => predictions[r] = prediction,
-                Err(ResponseError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                Err(_) => {}
-            }
-        }
-        Ok(estimator.error(&predictions, effects))
-    }
-
-    /// The same where the responses are those that follow from `starts`.
-    pub(super) fn error_of_followed(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
-        let predictor = self.of_structure()?;
-        let estimator = Estimator { predictor: &predictor, ..self.estimator() };
-        Ok(estimator.error(&estimator.predict(effects, &FINAL, starts)?, effects))
-    }
-
-    /// The updated model with all runs alike.
-    pub(super) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
-        self.predictor.updated(&self.linearisation.updating.of_structure())
-    }
-
     /// Squared residual per datum without any effect.
     pub(super) fn misfit(&self) -> f64 {
         sum_of_squares(&self.estimator().residual(&self.predictions)) / self.count().max(1) as f64
@@ -343,13 +315,15 @@ impl<'a> ReferenceModel<'a> {
     }
 }
 
+/// Whether derivatives, `[channel][harmonic - 1]`, are not all zero.
+fn is_felt(slope: &Vec<Vec<c64>>) -> bool {
+    slope.iter().flatten().any(|value| *value != c64::new(0.0, 0.0))
+}
+
 /// Drops the higher harmonics of derivatives, `[channel][harmonic - 1]`.
 fn fundamentals_alone(slope: &mut [Vec<c64>]) {
     slope.iter_mut().for_each(|channel| channel[1..].fill(c64::new(0.0, 0.0)));
 }
-
-/// Relative error of a run from which on it may be on another branch than the measured one.
-const FAR: f64 = 0.1;
 
 /// Share of a run that the model misses below which its derivatives are those of the measured motion.
 const CLOSE: f64 = 0.1;

@@ -11,8 +11,12 @@ const BELIEVED: f64 = 3.0 * Scales::GREATEST.known;
 impl Updating {
     /// Whether no parameter of damping is beyond all that models are wrong by.
     pub(crate) fn is_believable(&self) -> bool {
+        let in_band =
+            |mode: usize| self.parameters.contains(&UpdatingParameter::Structure(Part::ModeDampingPerOctave(mode)));
         self.parameters.iter().zip(&self.values).all(|(parameter, v)| match parameter {
-            UpdatingParameter::Structure(Part::ModeDamping(_) | Part::ModeDampingPerOctave(_)) => v.abs() < BELIEVED,
+            // Of a mode that higher harmonics alone show its resonance may be told wrongly, by which little of the response hangs.
+            UpdatingParameter::Structure(Part::ModeDamping(mode)) => v.abs() < BELIEVED || !in_band(*mode),
+            UpdatingParameter::Structure(Part::ModeDampingPerOctave(_)) => v.abs() < BELIEVED,
             // Less of a known source may be what an effect takes over that was stated by it at small amplitudes.
             UpdatingParameter::Known(_) => *v < BELIEVED,
             // A clamp may be as soft as it likes, and an effect is found as well beside a part that is 30 % off.
@@ -29,13 +33,15 @@ mod tests {
     #[test]
     fn corrections_beyond_three_prior_deviations_are_not_believed() {
         let is_believed = |parameter: UpdatingParameter, factor: f64| {
-            let parameters = vec![UpdatingParameter::Structure(Part::Mass), parameter];
-            Updating { parameters, values: vec![0.05, factor.ln()], ..Updating::default() }.is_believable()
+            let octave = UpdatingParameter::Structure(Part::ModeDampingPerOctave(0));
+            let parameters = vec![octave, UpdatingParameter::Structure(Part::Mass), parameter];
+            Updating { parameters, values: vec![0.0, 0.05, factor.ln()], ..Updating::default() }.is_believable()
         };
         let believed = |part: Part, factor: f64| is_believed(UpdatingParameter::Structure(part), factor);
         assert!(is_believed(UpdatingParameter::Known(0), 0.19) && !is_believed(UpdatingParameter::Known(0), 5.0));
         assert!(believed(Part::ModeDamping(0), 2.7) && believed(Part::ModeDamping(0), 0.3));
         assert!(!believed(Part::ModeDamping(0), 17.3) && !believed(Part::ModeDamping(0), 0.1));
+        assert!(believed(Part::ModeDamping(1), 17.3));
         assert!(believed(Part::Stiffness, 1.3));
         assert!(believed(Part::Support(HeldDof { element: 0, dof: 1 }), 0.05));
     }

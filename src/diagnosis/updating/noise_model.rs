@@ -2,12 +2,13 @@
 //! parameters of effects eliminated.
 //!
 //! ```text
-//! y = (1 + a_k) e^{-i h w t_k} yhat(theta, m, s_r) (1 + d_r) + e
+//! y = (1 + a_k) e^{-i h w t_k} yhat(theta, m, s_r, (1 + l_r) F) (1 + i d_r) + e
 //! ```
 //!
 //! `m` multiplies parts of the model, `a_k`, `t_k` are gain and delay of channel `k`, `s_r` shifts the stiffness of run
-//! `r`, `d_r` multiplies its response, `e` is noise. `m`, `a`, `t` are common to all runs ([`Marginalisation`]), `s_r`,
-//! `d_r` are the run's own ([`RunNuisance`]).
+//! `r`, `l_r` its forces, which are not known better than what measures them (of a linear model that multiplies the response), `d_r` turns
+//! its response, `e` is noise. `m`, `a`, `t` are common to all runs ([`Marginalisation`]), `s_r`, `l_r`, `d_r` are the run's own
+//! ([`RunNuisance`]).
 
 use super::marginalisation::Marginalisation;
 use super::modal_expansion::ModalExpansion;
@@ -33,13 +34,15 @@ pub(crate) struct Linearisation {
     pub at_motion: Vec<RunSlopes>,
     /// By the relative stiffness of the run, one list of `[channel][harmonic - 1]` a run.
     pub stiffness: Vec<Vec<Vec<c64>>>,
+    /// By the logarithm of the level of the forces of the run, likewise; of linear models `amplitudes`.
+    pub level: Vec<Vec<Vec<c64>>>,
     /// What turns a motion into the one that the sensors show, `[run][harmonic - 1]`; none where derivatives are of the model itself.
     pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
     /// Whether higher harmonics are doubted as far as the model is: else its receptance is taken for exact there.
     pub doubts_harmonics: bool,
     /// Whether higher harmonics count for nothing.
     pub of_fundamentals: bool,
-    /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
+    /// Amplitudes that gains, delays and phases of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
     /// model itself.
@@ -77,13 +80,13 @@ impl Linearisation {
         let response = response.hypot(self.leverage.get(r).copied().unwrap_or(0.0));
         match k {
             0 => self.stiffness[r][c][h - 1] * shift,
-            1 => self.amplitudes[r][c][h - 1] * response,
+            1 => self.level[r][c][h - 1] * response,
             _ => self.amplitudes[r][c][h - 1] * c64::new(0.0, response),
         }
     }
 }
 
-/// Parameters that are a run's own: its stiffness, real and imaginary part of the factor on its response.
+/// Parameters that are a run's own: its stiffness, the level of its forces, the phase of its response.
 pub(crate) const OWN: usize = 3;
 
 /// Noise of the residual of all runs with everything eliminated that is not the parameter of an effect.

@@ -117,7 +117,7 @@ impl Updating {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
         let mut parameters: Vec<UpdatingParameter> = parts(structure, &omegas)
             .into_iter()
-            .chain(damped_modes(structure, known, &omegas))
+            .chain(damped_modes(structure, known, data))
             .filter(|part| !data.is_ruled_out(*part))
             .map(UpdatingParameter::Structure)
             .collect();

@@ -1,5 +1,6 @@
 //! Parts of a structure whose stiffness and mass a model may state wrongly.
 
+use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Place, Source};
 use crate::structure::{Part, Structure, StructureKind};
 
@@ -11,6 +12,8 @@ const MOST_SPRINGS: usize = 40;
 const MOST_MODES: usize = 8;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
+/// Deviations that a harmonic must stand out by to tell the damping of a mode, which is known to a tenth.
+const TELLING: f64 = 10.0;
 
 /// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
 pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
@@ -44,13 +47,26 @@ pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
 /// Modes whose damping by laws of the whole structure is known no better than those laws: no structure damps its modes in just
 /// the proportion that they state. One mode alone is damped by their size. Nor is it known whether damping that is stated as
 /// structural is viscous: it shows where a stiffening joint takes the response away from the natural frequency.
-pub(crate) fn damped_modes(structure: &Structure, known: &[Source], omegas: &[f64]) -> Vec<Part> {
+pub(crate) fn damped_modes(structure: &Structure, known: &[Source], data: &Data) -> Vec<Part> {
     if !known.iter().any(|source| source.place == Place::Whole(None)) {
         return Vec::new();
     }
-    let modes = modes_in_band(structure, omegas);
-    let sizes: Vec<usize> = if modes.len() > 1 { modes.clone() } else { Vec::new() };
+    let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
+    let modes = modes_in_band(structure, &omegas);
+    let mut sizes = modes.clone();
+    sizes.extend(modes_in_band(structure, &telling_harmonics(data)).into_iter().filter(|mode| !modes.contains(mode)));
+    sizes.truncate(if sizes.len() > 1 { MOST_MODES } else { 0 });
     sizes.into_iter().map(Part::ModeDamping).chain(modes.into_iter().map(Part::ModeDampingPerOctave)).collect()
+}
+
+/// Circular frequencies (rad/s) of the higher harmonics that a sensor reads well above its noise: the modes that they come near to
+/// answer them by their damping.
+fn telling_harmonics(data: &Data) -> Vec<f64> {
+    let of_run = |run: &RunData| {
+        let tells = |i: &usize| run.responses.iter().any(|c| c.measured[*i].norm() > TELLING * c.deviation[*i]);
+        (1..run.harmonics).filter(tells).map(|i| (i + 1) as f64 * run.omega).collect::<Vec<f64>>()
+    };
+    data.runs.iter().flat_map(of_run).collect()
 }
 
 /// Modes whose frequencies the runs come near to.
@@ -64,9 +80,30 @@ fn modes_in_band(structure: &Structure, omegas: &[f64]) -> Vec<usize> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::models::three_masses;
+    use crate::common::runs::{channel, run};
+    use crate::diagnosis::Problem;
+    use crate::effects::Effect;
+    use crate::measurement::Quantity;
     use crate::structure::imported::{ImportedDof, ImportedParameters};
     use crate::structure::{Direction, Part};
-    use faer::Mat;
+    use faer::{Mat, c64};
+
+    /// The second harmonic falls on the second mode: where a sensor reads it, the damping of that mode is free.
+    #[test]
+    fn modes_that_higher_harmonics_show_are_damped_as_they_are() {
+        let structure = three_masses([1.0; 3]);
+        let known = [Source::known(Effect::LossFactor, Place::Whole(None), &[0.01])];
+        let omega = 0.5 * structure.modes().unwrap().omega[1];
+        let damped = |second: f64| {
+            let motion = vec![c64::new(1.0, 0.0), c64::new(second, 0.0)];
+            let force = channel(Quantity::Force, 2, vec![c64::new(1.0, 0.0), c64::new(0.0, 0.0)], 1e-3);
+            let runs = [run("run".into(), omega, vec![force, channel(Quantity::Displacement, 2, motion, 1e-3)])];
+            let data = Data::new(&Problem { structure: &structure, sources: &known, runs: &runs }).unwrap();
+            damped_modes(&structure, &known, &data).contains(&Part::ModeDamping(1))
+        };
+        assert!(damped(0.02) && !damped(0.005));
+    }
 
     /// Of imported matrices that are no springs, modes are wrong in stiffness and nodes in mass; a rotation has none of its own.
     #[test]

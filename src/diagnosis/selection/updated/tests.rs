@@ -1,4 +1,4 @@
-//! Corrections alone, of a beam whose clamp gives way.
+//! Corrections alone, of a beam whose clamp gives way; what the level of the force of a run does to a response that is not linear.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 use super::*;
@@ -6,7 +6,9 @@ use crate::common::models::{cantilever, source};
 use crate::common::runs::{displacements_run, with_noise};
 use crate::control::Control;
 use crate::diagnosis::Problem;
+use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::result::Suggestion;
+use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
 use crate::effects::Effect;
 use crate::measurement::Run;
 use crate::response::harmonic_balance::{Excitation, ForwardModel};
@@ -42,4 +44,34 @@ fn corrections_find_a_clamp_that_gives_way() {
     let k = updating.parameters.iter().position(|p| *p == UpdatingParameter::Structure(held)).unwrap();
     assert!((updating.values[k].exp() / 0.2 - 1.0).abs() < 0.1, "{}", updating.values[k].exp());
     assert!(bare.misfit() < 1.5, "{}", bare.misfit());
+}
+
+/// The response of a chain with a cubic spring follows the level of its force by its derivative, by differences, which is not the
+/// response; that of the linear chain does by the response.
+#[test]
+fn the_level_of_a_run_is_that_of_its_force() {
+    const STEP: f64 = 1e-5;
+    let effects = [hidden()];
+    let follows = |reference: ReferenceModel, effects: &[Source]| {
+        let response =
+            |reference: &ReferenceModel| reference.estimator().predict(effects, &FINAL, &Vec::new()).unwrap();
+        let mut runs = reference.data.runs.clone();
+        let forces = runs.iter_mut().flat_map(|run| &mut run.forces).flat_map(|force| &mut force.measured);
+        forces.for_each(|amplitude| *amplitude *= 1.0 + STEP);
+        let data = Data { runs, ..reference.data.clone() };
+        let louder = ReferenceModel { data: &data, ..reference.shallow() };
+        let (here, there) = (response(&reference), response(&louder));
+        let mut unlike: f64 = 0.0;
+        for (r, level) in reference.linearisation.level.iter().enumerate() {
+            for (c, level) in level.iter().enumerate() {
+                let difference = (there[r].channels[c][0] - here[r].channels[c][0]) / STEP;
+                assert!((level[0] - difference).norm() < 1e-3 * difference.norm(), "{} for {difference}", level[0]);
+                unlike = unlike.max((level[0] / here[r].channels[c][0] - 1.0).norm());
+            }
+        }
+        unlike
+    };
+    assert!(with_stated(&effects, |reference| follows(reference, &effects)) > 0.3);
+    let linear = with_stated(&[], |reference| reference.linearisation.level == reference.linearisation.amplitudes);
+    assert!(linear);
 }
