@@ -30,7 +30,7 @@ impl Spot {
         }
     }
 
-    /// Every DOF in space to the ground, every pair of neighbours, every channel.
+    /// Every translation and the rotation of every support to the ground, every pair of neighbours, every channel.
     pub(crate) fn all(structure: &Structure, data: &Data) -> Vec<Self> {
         let [responses, forces] = data.channel_names();
         let mut spots = Self::on(structure);
@@ -39,9 +39,14 @@ impl Spot {
         spots
     }
 
-    /// Those on the structure.
+    /// Those on the structure. What holds a node to the ground by its rotation alone is a support: along the structure a force and a moment
+    /// of one node move the measured modes alike, and there it is the force that has a part.
     fn on(structure: &Structure) -> Vec<Self> {
-        let ground = structure.in_space().into_iter().map(|first| Self::Leg(Leg { first, second: None }));
+        let dofs = structure.dofs();
+        let moves = |node: usize| dofs.iter().any(|dof| dof.node == node && !dof.direction.is_rotation());
+        let acts = |&row: &usize| !dofs[row].direction.is_rotation() || !moves(dofs[row].node);
+        let places = structure.in_space().into_iter().filter(acts);
+        let ground = places.map(|first| Self::Leg(Leg { first, second: None }));
         let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
         ground.chain(structure.neighbours().into_iter().map(pair)).collect()
     }
@@ -135,7 +140,26 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::structure::Direction;
+    use crate::structure::beam::{BeamParameters, Supports};
     use crate::structure::imported::{ImportedDof, ImportedParameters};
+
+    /// The rotations of the ends of a pinned beam are places, those between them are not.
+    #[test]
+    fn moments_act_at_supports() {
+        let beam = BeamParameters {
+            length: 1.0,
+            breadth: 0.04,
+            depth: 0.004,
+            youngs_modulus: 69e9,
+            density: 2700.0,
+            elements: 3,
+            supports: Supports::PinnedPinned,
+        };
+        let structure = beam.build(&[]).unwrap();
+        let leg = |first, second| Spot::Leg(Leg { first, second });
+        let ground = [0, 1, 3, 5].map(|dof| leg(dof, None));
+        assert_eq!(Spot::on(&structure), [&ground[..], &[leg(1, Some(3))]].concat());
+    }
 
     /// The amplitude of a fixed-interface mode of a reduced model is no place.
     #[test]

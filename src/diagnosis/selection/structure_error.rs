@@ -83,3 +83,29 @@ impl ReferenceModel<'_> {
         self.predictor.updated(&self.linearisation.updating.of_structure())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+    use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
+
+    /// Eight runs, of which one may lie beyond a jump where there is something that jumps.
+    #[test]
+    fn a_run_beyond_a_jump_counts_for_a_linear_model_alone() {
+        let errors = |effects: &[Source]| {
+            let both = |reference: ReferenceModel| {
+                let starts = Vec::new();
+                let all = reference.error_of_structure(effects, &starts).unwrap();
+                let beyond = |most: f64| {
+                    let judged = |error: f64, _: f64| error > most;
+                    reference.leaves(judged, [all, 0.0], (effects, &starts)).unwrap()
+                };
+                (beyond(0.999 * all), all)
+            };
+            with_stated(effects, both)
+        };
+        let ((linear, without), (jumps, with)) = (errors(&[]), errors(&[hidden()]));
+        assert!(linear && !jumps && with < without, "{with} {without}");
+    }
+}
