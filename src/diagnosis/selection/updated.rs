@@ -110,7 +110,7 @@ impl<'a> ReferenceModel<'a> {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }
-            (slopes, [stiffness, level.unwrap_or_else(|| amplitudes[r].clone())])
+            (slopes, [stiffness, level.unwrap_or_default()])
         };
         let (mut common, own): (Vec<RunSlopes>, Vec<_>) =
             self.control.map(self.data.runs.len(), of_run).into_iter().unzip();

@@ -2,12 +2,12 @@
 //! parameters of effects eliminated.
 //!
 //! ```text
-//! y = (1 + a_k) e^{-i h w t_k} yhat(theta, m, s_r, (1 + l_r) F) (1 + i d_r) + e
+//! y = (1 + a_k) e^{-i h w t_k} yhat(theta, m, s_r, (1 + l_r) F) (1 + d_r) + e
 //! ```
 //!
 //! `m` multiplies parts of the model, `a_k`, `t_k` are gain and delay of channel `k`, `s_r` shifts the stiffness of run
-//! `r`, `l_r` its forces, which are not known better than what measures them (of a linear model that multiplies the response), `d_r` turns
-//! its response, `e` is noise. `m`, `a`, `t` are common to all runs ([`Marginalisation`]), `s_r`, `l_r`, `d_r` are the run's own
+//! `r`, `l_r` its forces, which are not known better than what measures them, `d_r` multiplies its response, as `l_r` does that of a linear
+//! model, `e` is noise. `m`, `a`, `t` are common to all runs ([`Marginalisation`]), `s_r`, `l_r`, `d_r` are the run's own
 //! ([`RunNuisance`]).
 
 use super::marginalisation::Marginalisation;
@@ -34,7 +34,7 @@ pub(crate) struct Linearisation {
     pub at_motion: Vec<RunSlopes>,
     /// By the relative stiffness of the run, one list of `[channel][harmonic - 1]` a run.
     pub stiffness: Vec<Vec<Vec<c64>>>,
-    /// By the logarithm of the level of the forces of the run, likewise; of linear models `amplitudes`.
+    /// By the logarithm of the level of the forces of the run, likewise; none of a run that is linear, whose `amplitudes` they are.
     pub level: Vec<Vec<Vec<c64>>>,
     /// What turns a motion into the one that the sensors show, `[run][harmonic - 1]`; none where derivatives are of the model itself.
     pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
@@ -42,7 +42,7 @@ pub(crate) struct Linearisation {
     pub doubts_harmonics: bool,
     /// Whether higher harmonics count for nothing.
     pub of_fundamentals: bool,
-    /// Amplitudes that gains, delays and phases of runs multiply, `[run][channel][harmonic - 1]`.
+    /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
     /// model itself.
@@ -80,14 +80,19 @@ impl Linearisation {
         let response = response.hypot(self.leverage.get(r).copied().unwrap_or(0.0));
         match k {
             0 => self.stiffness[r][c][h - 1] * shift,
-            1 => self.level[r][c][h - 1] * response,
-            _ => self.amplitudes[r][c][h - 1] * c64::new(0.0, response),
+            1 => self.amplitudes[r][c][h - 1] * response,
+            2 => self.amplitudes[r][c][h - 1] * c64::new(0.0, response),
+            _ => self.level[r].get(c).map_or(c64::new(0.0, 0.0), |level| level[h - 1] * response.min(LEVEL)),
         }
     }
 }
 
-/// Parameters that are a run's own: its stiffness, the level of its forces, the phase of its response.
-pub(crate) const OWN: usize = 3;
+/// Parameters that are a run's own: its stiffness, real and imaginary part of the factor on its response, the level of its forces.
+pub(crate) const OWN: usize = 4;
+
+/// Greatest prior deviation of the level of the forces of a run, which are measured: what a law leaves near a fold, where the response
+/// follows the level by much, is no force.
+const LEVEL: f64 = 0.01;
 
 /// Noise of the residual of all runs with everything eliminated that is not the parameter of an effect.
 #[derive(Debug, Clone, Default)]
@@ -139,7 +144,9 @@ impl NoiseModel {
         for run in &self.runs {
             let estimate = run.nuisance().estimate(&left[at..at + run.len()]);
             at += run.len();
-            for k in 0..OWN {
+            // The level has the scale of the response as far as forces may be wrong by it.
+            let response = self.updating.updating.scales.response;
+            for k in 0..if response < LEVEL { OWN } else { OWN - 1 } {
                 let class = usize::from(k > 0);
                 squares[class] += estimate.values[k] * estimate.values[k];
                 known[class] += 1.0 - estimate.variances[k];
