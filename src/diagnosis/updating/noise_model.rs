@@ -78,11 +78,14 @@ impl Linearisation {
     fn own(&self, r: usize, k: usize, c: usize, h: usize) -> c64 {
         let Scales { shift, response, .. } = self.updating.scales;
         let response = response.hypot(self.leverage.get(r).copied().unwrap_or(0.0));
+        let (amplitude, level) = (self.amplitudes[r][c][h - 1], self.level[r].get(c));
+        // What forces are not wrong by multiplies the response.
+        let beyond = if level.is_some() { (response.powi(2) - LEVEL.powi(2)).max(0.0).sqrt() } else { response };
         match k {
             0 => self.stiffness[r][c][h - 1] * shift,
-            1 => self.amplitudes[r][c][h - 1] * response,
-            2 => self.amplitudes[r][c][h - 1] * c64::new(0.0, response),
-            _ => self.level[r].get(c).map_or(c64::new(0.0, 0.0), |level| level[h - 1] * response.min(LEVEL)),
+            1 => amplitude * beyond,
+            2 => amplitude * c64::new(0.0, response),
+            _ => level.map_or(c64::new(0.0, 0.0), |level| level[h - 1] * response.min(LEVEL)),
         }
     }
 }
