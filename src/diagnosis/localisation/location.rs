@@ -21,6 +21,16 @@ pub(crate) enum Spot {
     Force(String),
 }
 
+/// Whether a place is the rotation of a node that moves too. Along a structure a force and a moment of one node move the measured modes
+/// alike, and what holds a node to the ground by its rotation alone is a support.
+pub(crate) fn turns_a_moving_node(structure: &Structure, place: &Place) -> bool {
+    let Place::Dofs(rows) = place else { return false };
+    let [row] = rows[..] else { return false };
+    let (dofs, turned) = (structure.dofs(), &structure.dofs()[row]);
+    let moves = dofs.iter().any(|dof| dof.node == turned.node && !dof.direction.is_rotation());
+    turned.direction.is_rotation() && moves
+}
+
 impl Spot {
     /// The place of an effect there.
     pub(crate) fn place(&self) -> Place {
@@ -30,7 +40,7 @@ impl Spot {
         }
     }
 
-    /// Every translation and the rotation of every support to the ground, every pair of neighbours, every channel.
+    /// Every DOF in space to the ground, every pair of neighbours, every channel.
     pub(crate) fn all(structure: &Structure, data: &Data) -> Vec<Self> {
         let [responses, forces] = data.channel_names();
         let mut spots = Self::on(structure);
@@ -39,14 +49,9 @@ impl Spot {
         spots
     }
 
-    /// Those on the structure. What holds a node to the ground by its rotation alone is a support: along the structure a force and a moment
-    /// of one node move the measured modes alike, and there it is the force that has a part.
+    /// Those on the structure.
     fn on(structure: &Structure) -> Vec<Self> {
-        let dofs = structure.dofs();
-        let moves = |node: usize| dofs.iter().any(|dof| dof.node == node && !dof.direction.is_rotation());
-        let acts = |&row: &usize| !dofs[row].direction.is_rotation() || !moves(dofs[row].node);
-        let places = structure.in_space().into_iter().filter(acts);
-        let ground = places.map(|first| Self::Leg(Leg { first, second: None }));
+        let ground = structure.in_space().into_iter().map(|first| Self::Leg(Leg { first, second: None }));
         let pair = |[first, second]: [usize; 2]| Self::Leg(Leg { first, second: Some(second) });
         ground.chain(structure.neighbours().into_iter().map(pair)).collect()
     }
@@ -143,7 +148,7 @@ mod tests {
     use crate::structure::beam::{BeamParameters, Supports};
     use crate::structure::imported::{ImportedDof, ImportedParameters};
 
-    /// The rotations of the ends of a pinned beam are places, those between them are not.
+    /// The rotations of the ends of a pinned beam are those of supports, those between them are not.
     #[test]
     fn moments_act_at_supports() {
         let beam = BeamParameters {
@@ -156,9 +161,10 @@ mod tests {
             supports: Supports::PinnedPinned,
         };
         let structure = beam.build(&[]).unwrap();
-        let leg = |first, second| Spot::Leg(Leg { first, second });
-        let ground = [0, 1, 3, 5].map(|dof| leg(dof, None));
-        assert_eq!(Spot::on(&structure), [&ground[..], &[leg(1, Some(3))]].concat());
+        let turns = |dofs: &[usize]| turns_a_moving_node(&structure, &Place::Dofs(dofs.to_vec()));
+        let turning: Vec<usize> = (0..structure.len()).filter(|&dof| turns(&[dof])).collect();
+        assert_eq!(turning, [2, 4]);
+        assert!(!turns(&[1, 3]));
     }
 
     /// The amplitude of a fixed-interface mode of a reduced model is no place.
