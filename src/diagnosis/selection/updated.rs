@@ -87,14 +87,13 @@ impl<'a> ReferenceModel<'a> {
             let mut sums: Vec<Vec<(Unknown, f64)>> =
                 (0..updating.len()).map(|k| updating.unknowns(k, known, run)).collect();
             sums.push(vec![(Unknown::Stiffness, 1.0)]);
-            let (mut slopes, level) = match &seen {
-                Some(seen) => (seen.slopes(r, &sums), None),
-                None => {
-                    sums.push((0..run.forces.len()).map(|force| (Unknown::ForceScale(force), 1.0)).collect());
-                    let mut slopes = self.model_slopes(r, effects, &predictions[r], &sums);
-                    let level = slopes.pop();
-                    (slopes, level.filter(is_felt))
-                }
+            let (mut slopes, level) = if let Some(seen) = &seen {
+                (seen.slopes(r, &sums), None)
+            } else {
+                sums.push((0..run.forces.len()).map(|force| (Unknown::ForceScale(force), 1.0)).collect());
+                let mut slopes = self.model_slopes(r, effects, &predictions[r], &sums);
+                let level = slopes.pop();
+                (slopes, level.filter(|level| is_felt(level)))
             };
             let mut stiffness = slopes.pop().unwrap_or_default();
             if seen.is_some() {
@@ -316,7 +315,7 @@ impl<'a> ReferenceModel<'a> {
 }
 
 /// Whether derivatives, `[channel][harmonic - 1]`, are not all zero.
-fn is_felt(slope: &Vec<Vec<c64>>) -> bool {
+fn is_felt(slope: &[Vec<c64>]) -> bool {
     slope.iter().flatten().any(|value| *value != c64::new(0.0, 0.0))
 }
 
