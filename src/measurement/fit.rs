@@ -284,7 +284,7 @@ pub(super) fn turn_covariance(covariance: &Mat<f64>, factors: &[c64]) -> Mat<f64
 }
 
 /// Variance of the noise of one sample of every channel.
-pub(super) fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64> {
+fn noise_variances(record: &Record, omega: f64, solved: &Solved<'_>) -> Vec<f64> {
     let period = TAU / omega;
     let periods = record.duration() / period;
     let enough = periods + 1e-9 >= FEWEST_PERIODS_FOR_SCATTER;
