@@ -3,6 +3,8 @@
 
 #[path = "channels/delays.rs"]
 mod delays;
+#[path = "channels/energies.rs"]
+mod energies;
 #[path = "channels/in_time.rs"]
 mod in_time;
 

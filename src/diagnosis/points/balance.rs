@@ -156,8 +156,20 @@ impl<'a> Balance<'a> {
             let energy = |r: usize| legs.iter().map(|motions| law.energy(&source.parameters, &motions[r])).sum();
             return (0..self.runs.len()).map(energy).collect();
         }
-        let energy = |run: &RunData| taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples);
-        self.runs.iter().map(energy).collect()
+        self.runs.iter().map(|run| self.energy(source, run, samples)).collect()
+    }
+
+    /// Energy that a source takes out in one run, J.
+    fn energy(&self, source: &Source, run: &RunData, samples: usize) -> f64 {
+        taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples)
+    }
+
+    /// Energy that a source takes out in each run freed of the errors of channels among `effects`, J.
+    fn energies_beside(&self, source: &Source, effects: &[Source]) -> Vec<f64> {
+        if !is_faulty(effects) {
+            return self.energies(source, SAMPLES);
+        }
+        self.runs.iter().map(|run| self.energy(source, &corrected(run, effects), SAMPLES)).collect()
     }
 
     /// The shapes of a grid of every law at every place with the energies that they take out, J.
@@ -208,9 +220,8 @@ impl<'a> Balance<'a> {
         }
         let of_run = |run: &RunData| {
             let run = corrected(run, effects);
-            let field = |dof: usize| displacement(&run, dof);
-            let lost = |source: &Source| taken(self.structure, source, run.omega, &field, SAMPLES);
-            input(&run, &field) - self.known.iter().chain(on_structure()).map(lost).sum::<f64>()
+            let lost = |source: &Source| self.energy(source, &run, SAMPLES);
+            input(&run, &|dof| displacement(&run, dof)) - self.known.iter().chain(on_structure()).map(lost).sum::<f64>()
         };
         self.runs.iter().map(of_run).collect()
     }
@@ -231,10 +242,20 @@ impl<'a> Balance<'a> {
         let mut left = self.left(effects);
         for correction in self.corrections(effects) {
             let UpdatingParameter::Known(k) = correction.parameter else { continue };
-            let taken = self.energies(&self.known[k], SAMPLES);
+            let taken = self.energies_beside(&self.known[k], effects);
             left.iter_mut().zip(taken).for_each(|(l, e)| *l -= (correction.factor - 1.0) * e);
         }
-        left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
+        let input = self.input_beside(effects);
+        left.iter().zip(&input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
+    }
+
+    /// Energy put in in each run freed of the errors of channels among `effects`, J.
+    fn input_beside(&self, effects: &[Source]) -> Vec<f64> {
+        let of_run = |run: &RunData| {
+            let run = corrected(run, effects);
+            input(&run, &|dof| displacement(&run, dof))
+        };
+        if is_faulty(effects) { self.runs.iter().map(of_run).collect() } else { self.input.clone() }
     }
 
     pub(crate) fn fit(&self, effects: &[Source]) -> Fitted {

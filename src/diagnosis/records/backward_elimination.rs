@@ -2,13 +2,15 @@
 //! needless, or no more than a special case of itself.
 
 use super::data::RecordError;
-use super::evidence::{evidence, scale};
+use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::Search;
+use super::search::{Search, SetsBySize};
 use crate::effects::Source;
 
 /// Rounds and steps of a fit with one effect less, or a plainer one.
 const PRUNING: [usize; 2] = [2, 3];
+/// The same of one on whole records without its last effect.
+const WITHOUT: [usize; 2] = [4, 4];
 
 impl Search<'_> {
     /// A fit without those of its earlier effects that the last one has made needless, the others by the plainest law that does.
@@ -31,6 +33,20 @@ impl Search<'_> {
             }
         }
         Ok(best)
+    }
+
+    /// The effects before a mass or spring that was found last, on whole records, where they leave no more than noise there: what it explains
+    /// beside them is an error of the masses and springs of the model. `None` where it is no such effect, or they leave more.
+    pub(super) fn without_constant(&self, by_size: &SetsBySize) -> Result<Option<SetsBySize>, RecordError> {
+        let last = by_size.last.first().filter(|best| best.effects.len() > 1 && best.adds_constant());
+        let Some(((level, before), earlier)) = last.and_then(|_| by_size.earlier.split_last()) else { return Ok(None) };
+        if before.effects.is_empty() || self.control.is_late() {
+            return Ok(None);
+        }
+        let whole = self.levels.len() - 1;
+        let without = self.fit(whole, &self.carried(before, *level, whole)?, 1.0, WITHOUT)?;
+        let noise = misfit(&without) < AGREES;
+        Ok(noise.then(|| SetsBySize { earlier: earlier.to_vec(), last: vec![without] }))
     }
 
     /// The fit begun at `start` where it has more evidence than `best`.

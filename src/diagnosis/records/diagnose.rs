@@ -190,6 +190,9 @@ impl Search<'_> {
                 by_size = SetsBySize { earlier: Vec::new(), last: vec![without] };
             }
         }
+        if let Some(fewer) = self.without_constant(&by_size)? {
+            by_size = fewer;
+        }
         if let Some(best) = by_size.last.first().filter(|f| !f.effects.is_empty() && !self.control.is_late())
             && let Some(alone) = self.corrections_alone(best)?
             && !self.is_better(whole, best, &alone)?
@@ -244,7 +247,7 @@ impl Search<'_> {
         found: &[FittedRecords],
         old: &FittedRecords,
     ) -> Result<Option<usize>, RecordError> {
-        let other = found.iter().position(|f| !adds_constant(f));
+        let other = found.iter().position(|f| !f.adds_constant());
         for k in std::iter::once(0).chain(other.filter(|k| *k > 0)) {
             if found.get(k).map_or(Ok(false), |f| self.is_better(level, f, old))? {
                 return Ok(Some(k));
@@ -267,7 +270,7 @@ impl Search<'_> {
             return Ok(false);
         }
         // Corrections beyond what is believed are what an effect does, where it explains as much with corrections that may be.
-        let constant = adds_constant(new);
+        let constant = new.adds_constant();
         if misfit(old) < AGREES && is_strained(old) && !is_strained(new) && !constant && gain > 0.0 {
             return Ok(true);
         }
@@ -305,11 +308,6 @@ fn agrees(fit: &FittedRecords, least: f64) -> bool {
     let enough = if fit.effects.is_empty() { least } else { ENOUGH.max(least) };
     let plausible = corrected_by(fit) < PLAUSIBLE[0].max(PLAUSIBLE[1] * count as f64);
     misfit(fit) < enough && plausible && (!fit.effects.is_empty() || !is_strained(fit))
-}
-
-/// Whether the last effect of a fit is a mass or a spring.
-fn adds_constant(fit: &FittedRecords) -> bool {
-    fit.effects.last().is_some_and(|e| e.effect.is_mass_or_spring())
 }
 
 /// Whether the force of the last effect is more than its deviation allows it to be by chance.

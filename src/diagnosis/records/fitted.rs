@@ -74,6 +74,11 @@ impl FittedRecords {
         }
     }
 
+    /// Whether the last effect is a mass or a spring.
+    pub(super) fn adds_constant(&self) -> bool {
+        self.effects.last().is_some_and(|e| e.effect.is_mass_or_spring())
+    }
+
     /// Known sources at their factors, then the effects.
     pub(crate) fn sources(&self, records: &Records) -> Vec<Source> {
         let sized = |(source, v): (&Source, &f64)| {

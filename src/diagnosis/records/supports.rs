@@ -57,10 +57,15 @@ impl Search<'_> {
         let Some((g, best)) = found.into_iter().min_by(|a, b| worth(a).total_cmp(&worth(b))) else {
             return Ok(Vec::new());
         };
-        if best.1.chi_square > LEFT * rigid.chi_square || evidence(&rigid, unit) - evidence(&best.1, unit) < GAIN {
+        // Between the factors that are tried high modes move by many widths of their resonances.
+        let gain = |fit: &FittedRecords| evidence(&rigid, unit) - evidence(fit, unit);
+        if gain(&best.1) < GAIN {
             return Ok(Vec::new());
         }
-        let (factor, deviation) = self.refined(&base, &groups[g], best);
+        let ((factor, best), deviation) = self.refined(&base, &groups[g], best);
+        if best.chi_square > LEFT * rigid.chi_square {
+            return Ok(Vec::new());
+        }
         let correction = |part: &Part| Correction { parameter: UpdatingParameter::Structure(*part), factor, deviation };
         Ok(groups[g].iter().map(correction).collect())
     }
@@ -80,28 +85,29 @@ impl Search<'_> {
         Some(fitted)
     }
 
-    /// The best factor near one that was tried, and its deviation by the curvature of the evidence.
-    fn refined(&self, base: &FittedRecords, supports: &[Part], best: Tried) -> (f64, f64) {
-        let [mut at, mut width] = [best.0, 0.4 * best.0.min(1.0 - best.0).max(0.1)];
+    /// The best factor near one that was tried, with its fit, and its deviation by the curvature of the evidence.
+    fn refined(&self, base: &FittedRecords, supports: &[Part], mut best: Tried) -> (Tried, f64) {
+        let mut width = 0.4 * best.0.min(1.0 - best.0).max(0.1);
         let unit = scale(&best.1);
         let worth = |fit: &FittedRecords| evidence(fit, unit);
-        let (mut least, mut deviation) = (worth(&best.1), width);
+        let mut deviation = width;
         for _ in 0..HALVINGS {
-            let sides = [at - width, at + width].map(|f| f.clamp(0.02, 0.99));
-            let side_fit = |k: usize| self.with_supports(base, supports, sides[k]);
-            let found = self.control.map(2, side_fit).into_iter().map(|fit| fit.as_ref().map_or(f64::INFINITY, worth));
-            let found: Vec<f64> = found.collect();
-            let bent = (found[0] + found[1] - 2.0 * least) / (width * width);
+            let sides = [best.0 - width, best.0 + width].map(|f| f.clamp(0.02, 0.99));
+            let side_fit = |k: usize| Some((sides[k], self.with_supports(base, supports, sides[k])?));
+            let found: Vec<Option<Tried>> = self.control.map(2, side_fit);
+            let least = worth(&best.1);
+            let worths = found.iter().map(|side| side.as_ref().map_or(f64::INFINITY, |(_, fit)| worth(fit)));
+            let bent = (worths.sum::<f64>() - 2.0 * least) / (width * width);
             if bent.is_finite() && bent > 0.0 {
                 deviation = (2.0 / bent).sqrt();
             }
-            for (side, worth) in sides.into_iter().zip(found) {
-                if worth < least {
-                    (at, least) = (side, worth);
+            for side in found.into_iter().flatten() {
+                if worth(&side.1) < worth(&best.1) {
+                    best = side;
                 }
             }
             width *= 0.5;
         }
-        (at, deviation.max(width))
+        (best, deviation.max(width))
     }
 }

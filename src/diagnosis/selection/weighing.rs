@@ -10,7 +10,7 @@ use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNEXPLAINED};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, FittedSets, Found, agrees, cost, same_set};
+use crate::diagnosis::selection::found::{FittedSets, Found, agrees, cost, same_set};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::successive_linearisation::CONVERGED;
@@ -199,11 +199,12 @@ fn candidate(reference: ReferenceModel<'_>, fit: FittedModel) -> Result<Candidat
 }
 
 /// The laws that the best may have been taken for, in its stead and each with a model settled beside it: where the best is linear,
-/// whose neighbours are fitted in no time, or leaves more than noise hides, as a simple law does that was easier to refine.
+/// whose neighbours are fitted in no time, or leaves more than noise is expected to leave, as a simple law does that was easier to refine:
+/// corrections beside it hide much of what it lacks.
 fn generalisations_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisError> {
     let (reference, left) = (&best.reference, best.fit.chi_square / best.reference.count() as f64);
     let linear = best.fit.effects.iter().all(|e| e.effect.is_linear());
-    let doubtful = left > DOUBTFUL;
+    let doubtful = best.fit.chi_square > best.reference.count().saturating_sub(best.fit.parameters) as f64;
     if reference.control.is_late() || left > UNEXPLAINED || !(linear || doubtful) {
         return Ok(Vec::new());
     }
