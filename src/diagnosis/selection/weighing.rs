@@ -90,11 +90,10 @@ pub(super) fn weighed(
         let (reference, mut fit) = finished(reference, fit)?;
         fit.error = error_of(&reference, &fit)?;
         let least = cost(&reference, Some(&fit));
-        let told = with_told_deviations(&reference, fit)?;
-        if !is_effect(&reference, &told) {
+        if !is_effect(&reference, &fit) {
             continue;
         }
-        let mut fits = vec![told];
+        let mut fits = vec![with_told_deviations(&reference, fit)?];
         fits.extend(all.into_iter().map(|candidate| candidate.fit));
         return Ok(Some(Weighed { reference, fits, probabilities, least }));
     }
