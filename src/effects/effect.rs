@@ -37,6 +37,10 @@ impl Effect {
     pub const SPRING: Self = Self::Stiffness;
     /// What stands in for the damping of a structure of which none is known: the same loss factor in every mode.
     pub const STAND_IN: Self = Self::LossFactor;
+    /// The error of a channel that multiplies what it reads.
+    pub const CHANNEL_GAIN: Self = Self::Gain;
+    /// The error of a channel that reads late.
+    pub const CHANNEL_DELAY: Self = Self::Delay;
 
     /// The effect of that name in project files.
     pub fn from_name(name: &str) -> Option<Self> {

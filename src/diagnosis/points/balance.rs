@@ -100,8 +100,8 @@ impl<'a> Balance<'a> {
                 let change: Vec<f64> = left.iter().zip(&self.missing).map(|(a, b)| (b - a) / STEP).collect();
                 self.over_deviations(&change)
             };
-            uncertain.push((UpdatingParameter::Gain(name.clone()), by(Effect::Gain, 1.0 + STEP)));
-            uncertain.push((UpdatingParameter::Delay(name.clone()), by(Effect::Delay, STEP / omega)));
+            uncertain.push((UpdatingParameter::Gain(name.clone()), by(Effect::CHANNEL_GAIN, 1.0 + STEP)));
+            uncertain.push((UpdatingParameter::Delay(name.clone()), by(Effect::CHANNEL_DELAY, STEP / omega)));
         }
         uncertain
     }
@@ -233,7 +233,8 @@ impl<'a> Balance<'a> {
             let place = Place::Channel(name.clone());
             Source { effect, place, state: State::Known, parameters: vec![value] }
         };
-        let both = |name: &String| [fault(name, Effect::Delay, 1e-3 / omega), fault(name, Effect::Gain, 1.02)];
+        let both =
+            |name: &String| [fault(name, Effect::CHANNEL_DELAY, 1e-3 / omega), fault(name, Effect::CHANNEL_GAIN, 1.02)];
         self.channel_names().iter().flat_map(both).collect()
     }
 

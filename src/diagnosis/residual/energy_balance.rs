@@ -8,7 +8,8 @@
 //! Where not every DOF is measured the field is that of the model, its harmonics each scaled by the complex factor that
 //! fits the sensors best: near a resonance the shape of the motion is known far better than its size.
 
-use crate::diagnosis::residual::data::RunData;
+use crate::balance::measured::NOMINAL;
+use crate::diagnosis::residual::data::{ChannelData, RunData};
 use crate::diagnosis::residual::prediction::RunPrediction;
 use crate::effects::{Kind, Place, Source};
 use crate::measurement::Quantity;
@@ -45,13 +46,25 @@ pub(crate) fn taken(structure: &Structure, source: &Source, omega: f64, field: &
     (1..=order).map(of_harmonic).sum()
 }
 
-/// The measured displacement amplitudes of a DOF, if a channel measures it.
+/// The measured displacement amplitudes of a DOF, if a channel measures it: sensors there are averaged by the inverse of their
+/// variances, as in identification.
 pub(crate) fn measured_displacement(run: &RunData, dof: usize) -> Option<Vec<c64>> {
-    // The least differentiated channel is the most direct one.
-    let order = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
-    let channel = order.iter().find_map(|q| run.responses.iter().find(|c| c.dof == dof && c.quantity == *q))?;
-    let displacement = |(i, y): (usize, &c64)| *y / channel.from_displacement((i + 1) as f64 * run.omega);
-    Some(channel.measured.iter().enumerate().map(displacement).collect())
+    let moves = |q: Quantity| matches!(q, Quantity::Displacement | Quantity::Velocity | Quantity::Acceleration);
+    let sensors: Vec<&ChannelData> = run.responses.iter().filter(|c| c.dof == dof && moves(c.quantity)).collect();
+    let average = |i: usize| {
+        let (mut sum, mut weights) = (c64::new(0.0, 0.0), 0.0);
+        for sensor in &sensors {
+            let factor = sensor.from_displacement((i + 1) as f64 * run.omega);
+            let least = NOMINAL * sensor.measured.iter().map(|y| y.norm()).fold(0.0, f64::max);
+            let deviation = sensor.deviation[i].max(least) / factor.norm();
+            let weight = deviation.max(f64::MIN_POSITIVE.sqrt()).powi(-2);
+            sum += sensor.measured[i] / factor * weight;
+            weights += weight;
+        }
+        sum / weights
+    };
+    let harmonics = sensors.first()?.measured.len();
+    Some((0..harmonics).map(average).collect())
 }
 
 /// The field of a prediction scaled to the sensors, one complex factor a harmonic.
@@ -104,4 +117,33 @@ fn quadratic(b: &Mat<f64>, x: &[c64]) -> f64 {
         (product * xj).re
     };
     x.iter().enumerate().map(row).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An accelerometer and a laser of a fifth of its deviation (as displacement) at one DOF, and an accelerometer at another.
+    #[test]
+    fn sensors_at_one_dof_are_averaged_by_the_inverse_of_their_variances() {
+        let omega = 10.0;
+        let sensor = |quantity, dof, value: f64, deviation: f64| ChannelData {
+            name: String::new(),
+            quantity,
+            dof,
+            measured: vec![c64::new(value, 0.0)],
+            deviation: vec![deviation],
+        };
+        let responses = vec![
+            sensor(Quantity::Acceleration, 0, -omega * omega * 1.26e-3, omega * omega * 5e-6),
+            sensor(Quantity::Displacement, 0, 1e-3, 1e-6),
+            sensor(Quantity::Velocity, 1, 3e-2, 1e-4),
+        ];
+        let (forces, alive) = (Vec::new(), vec![0, 1, 2]);
+        let run = RunData { index: 0, omega, harmonics: 1, forces, responses, alive, on_moving_base: false };
+        let at = |dof| measured_displacement(&run, dof);
+        // Weights 1 and 25.
+        assert!((at(0).unwrap()[0] - c64::new(1.01e-3, 0.0)).norm() < 1e-12);
+        assert!((at(1).unwrap()[0] - c64::new(0.0, -3e-3)).norm() < 1e-12 && at(2).is_none());
+    }
 }

@@ -272,7 +272,7 @@ impl Updating {
     pub fn force_gains(&self) -> Vec<Source> {
         let gain = |(k, parameter): (usize, &UpdatingParameter)| match parameter {
             UpdatingParameter::ForceGain(name) => {
-                Some(Source::known(Effect::Gain, Place::Channel(name.clone()), &[self.factor(k)]))
+                Some(Source::known(Effect::CHANNEL_GAIN, Place::Channel(name.clone()), &[self.factor(k)]))
             }
             _ => None,
         };
