@@ -35,6 +35,7 @@ pub(crate) struct Balance<'a> {
     pub known: Vec<Source>,
     pub runs: Vec<RunData>,
     uncertainty: Option<Uncertainty>,
+    multiples: Multiples,
     motions: PlaceMotions,
     /// Input less what is known, J.
     pub missing: Vec<f64>,
@@ -74,6 +75,7 @@ impl<'a> Balance<'a> {
             deviation: deviation.collect(),
             runs: data.runs,
             uncertainty: None,
+            multiples: Multiples::TRIED[0],
             motions: PlaceMotions::default(),
         })
     }
@@ -83,7 +85,28 @@ impl<'a> Balance<'a> {
     pub(crate) fn with_uncertainty(self, multiples: Multiples) -> Self {
         let uncertain = if multiples.is_exact() { Vec::new() } else { self.uncertain() };
         let uncertainty = Some(Uncertainty::new(uncertain, &self.over_deviations(&self.input), multiples));
-        Self { uncertainty, ..self }
+        Self { uncertainty, multiples, ..self }
+    }
+
+    /// The same of records freed of the errors of channels among `effects`, with the effects that are left.
+    fn mended(&self, effects: &[Source]) -> (Balance<'a>, Vec<Source>) {
+        let (faults, others): (Vec<Source>, Vec<Source>) = effects.iter().cloned().partition(is_fault);
+        let runs: Vec<RunData> = self.runs.iter().map(|run| corrected(run, &faults)).collect();
+        let put_in = |run: &RunData| input(run, &|dof| displacement(run, dof));
+        let input: Vec<f64> = runs.iter().map(put_in).collect();
+        let scaled = |(d, (new, old)): (&f64, (&f64, &f64))| if *old == 0.0 { *d } else { d * (new / old).abs() };
+        let mended = Balance {
+            structure: self.structure,
+            known: self.known.clone(),
+            missing: self.left(&faults),
+            deviation: self.deviation.iter().zip(input.iter().zip(&self.input)).map(scaled).collect(),
+            input,
+            runs,
+            uncertainty: None,
+            multiples: self.multiples,
+            motions: PlaceMotions::default(),
+        };
+        (mended.with_uncertainty(self.multiples), others)
     }
 
     /// Sizes of known sources, gains and phases of channels with the derivative of the energy that is left by each, over its
@@ -121,8 +144,12 @@ impl<'a> Balance<'a> {
         self.uncertainty.as_ref().map_or_else(|| rows.clone(), |u| u.whitened(&rows))
     }
 
-    /// Corrections of known sources beside `effects`.
+    /// Corrections of known sources beside `effects`: of records freed of the errors of channels among them.
     pub(crate) fn corrections(&self, effects: &[Source]) -> Vec<Correction> {
+        if effects.iter().any(is_fault) {
+            let (mended, others) = self.mended(effects);
+            return mended.corrections(&others);
+        }
         let rows = self.over_deviations(&self.left(effects));
         self.uncertainty.as_ref().map_or_else(Vec::new, |u| u.corrections(&rows))
     }
@@ -164,14 +191,6 @@ impl<'a> Balance<'a> {
         taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples)
     }
 
-    /// Energy that a source takes out in each run freed of the errors of channels among `effects`, J.
-    fn energies_beside(&self, source: &Source, effects: &[Source]) -> Vec<f64> {
-        if !is_faulty(effects) {
-            return self.energies(source, SAMPLES);
-        }
-        self.runs.iter().map(|run| self.energy(source, &corrected(run, effects), SAMPLES)).collect()
-    }
-
     /// The shapes of a grid of every law at every place with the energies that they take out, J.
     pub(crate) fn shapes(&self) -> Vec<(Source, Vec<f64>)> {
         let ground = (0..self.structure.len()).map(|dof| vec![dof]);
@@ -211,7 +230,7 @@ impl<'a> Balance<'a> {
     /// Energy that is left over in each run with `effects`. Errors of channels are taken out of the record first.
     fn left(&self, effects: &[Source]) -> Vec<f64> {
         let on_structure = || effects.iter().filter(|e| e.effect.law().is_some());
-        if !is_faulty(effects) {
+        if !effects.iter().any(is_fault) {
             let mut left = self.missing.clone();
             for effect in on_structure() {
                 left.iter_mut().zip(self.energies(effect, SAMPLES)).for_each(|(l, e)| *l -= e);
@@ -238,25 +257,19 @@ impl<'a> Balance<'a> {
         self.channel_names().iter().flat_map(both).collect()
     }
 
-    /// Relative error per run with `effects` and the corrections of known sources beside them.
+    /// Relative error per run with `effects` and the corrections of known sources beside them, as comparing shows it with both.
     pub(crate) fn errors(&self, effects: &[Source]) -> Vec<f64> {
+        if effects.iter().any(is_fault) {
+            let (mended, others) = self.mended(effects);
+            return mended.errors(&others);
+        }
         let mut left = self.left(effects);
         for correction in self.corrections(effects) {
             let UpdatingParameter::Known(k) = correction.parameter else { continue };
-            let taken = self.energies_beside(&self.known[k], effects);
+            let taken = self.energies(&self.known[k], SAMPLES);
             left.iter_mut().zip(taken).for_each(|(l, e)| *l -= (correction.factor - 1.0) * e);
         }
-        let input = self.input_beside(effects);
-        left.iter().zip(&input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
-    }
-
-    /// Energy put in in each run freed of the errors of channels among `effects`, J.
-    fn input_beside(&self, effects: &[Source]) -> Vec<f64> {
-        let of_run = |run: &RunData| {
-            let run = corrected(run, effects);
-            input(&run, &|dof| displacement(&run, dof))
-        };
-        if is_faulty(effects) { self.runs.iter().map(of_run).collect() } else { self.input.clone() }
+        left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
     }
 
     pub(crate) fn fit(&self, effects: &[Source]) -> Fitted {
@@ -311,7 +324,7 @@ impl Residual for OnEnergy<'_> {
 
     fn jacobian(&mut self, theta: &[f64], at: &[f64]) -> Result<Mat<f64>, Infallible> {
         let effects = self.variables.effects(theta);
-        let faulty = is_faulty(&effects);
+        let faulty = effects.iter().any(is_fault);
         let owners = effects.iter().enumerate().flat_map(|(j, effect)| vec![j; effect.parameters.len()]);
         let before: Vec<Vec<f64>> = if faulty {
             Vec::new()
@@ -336,9 +349,9 @@ impl Residual for OnEnergy<'_> {
     }
 }
 
-/// Whether there are errors of channels among the effects.
-fn is_faulty(effects: &[Source]) -> bool {
-    effects.iter().any(|e| matches!(e.place, Place::Channel(_)))
+/// Whether an effect is an error of a channel.
+fn is_fault(effect: &Source) -> bool {
+    matches!(effect.place, Place::Channel(_))
 }
 
 /// The run freed of the errors of channels among `effects`.

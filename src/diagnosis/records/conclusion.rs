@@ -4,6 +4,7 @@ use super::data::{RecordError, Records};
 use super::evidence::{AGREES, misfit, scale};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
+use super::probability::likeliest_first;
 use super::problem::beyond_priors;
 use super::search::{Search, SetsBySize};
 use super::stated_fit::added_as_stated;
@@ -60,6 +61,7 @@ impl Search<'_> {
         if late {
             last = self.believable(last)?;
         }
+        last = likeliest_first(last, late);
         let Some(best) = last.first() else {
             diagnosis.verdict = Verdict::Unexplained;
             return Ok(());

@@ -31,6 +31,16 @@ pub(super) fn probabilities(found: &[FittedRecords], cut_off: bool) -> Vec<f64> 
     of_each.into_iter().map(|p| among * p).collect()
 }
 
+/// `found` with the likeliest first, the others in their order: a fit may owe its evidence to a few stretches of the records.
+pub(super) fn likeliest_first(mut found: Vec<FittedRecords>, cut_off: bool) -> Vec<FittedRecords> {
+    let weights = probabilities(&found, cut_off);
+    let likeliest = (0..found.len()).rev().max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
+    if let Some(k) = likeliest {
+        found[..=k].rotate_right(1);
+    }
+    found
+}
+
 /// Probability that what is true is among the laws that were fitted, of which this is the best: what is left beyond noise is no proof against a
 /// law, since search and corrections are never complete, but it is none for it.
 fn among_fitted(best: &FittedRecords, cut_off: bool) -> f64 {
@@ -55,7 +65,7 @@ fn squares(fit: &FittedRecords) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::probabilities;
+    use super::{likeliest_first, probabilities};
     use crate::diagnosis::records::fitted::FittedRecords;
     use std::sync::Arc;
 
@@ -75,6 +85,15 @@ mod tests {
         assert!(probabilities(&[best.clone(), everywhere], false)[0] > 0.999);
         let open = probabilities(&[best, mixed], false);
         assert!(open[1] > 0.05 && (open[0] + open[1] - 1.0).abs() < 1e-12, "{open:?}");
+    }
+
+    /// One stretch in which it leaves nothing gives a fit the most evidence, and the other is likelier all the same.
+    #[test]
+    fn the_likeliest_comes_first() {
+        let [steady, lucky] = [[50.0; 12], std::array::from_fn(|k| if k == 0 { 0.0 } else { 54.0 })].map(|s| fit(&s));
+        assert!(lucky.chi_square < steady.chi_square);
+        let first = likeliest_first(vec![lucky.clone(), steady.clone(), fit(&[60.0; 12])], false);
+        assert_eq!(first.iter().map(|f| f.chi_square).collect::<Vec<_>>(), [600.0, lucky.chi_square, 720.0]);
     }
 
     /// A single fit is sure where it leaves noise, and the less so the more it leaves.
