@@ -141,9 +141,9 @@ mod tests {
         ];
         let (forces, alive) = (Vec::new(), vec![0, 1, 2]);
         let run = RunData { index: 0, omega, harmonics: 1, forces, responses, alive, on_moving_base: false };
-        let at = |dof| measured_displacement(&run, dof);
+        let displacement = |dof| measured_displacement(&run, dof);
         // Weights 1 and 25.
-        assert!((at(0).unwrap()[0] - c64::new(1.01e-3, 0.0)).norm() < 1e-12);
-        assert!((at(1).unwrap()[0] - c64::new(0.0, -3e-3)).norm() < 1e-12 && at(2).is_none());
+        assert!((displacement(0).unwrap()[0] - c64::new(1.01e-3, 0.0)).norm() < 1e-12);
+        assert!((displacement(1).unwrap()[0] - c64::new(0.0, -3e-3)).norm() < 1e-12 && displacement(2).is_none());
     }
 }
