@@ -121,6 +121,7 @@ fn quadratic(b: &Mat<f64>, x: &[c64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
 
     /// An accelerometer and a laser of a fifth of its deviation (as displacement) at one DOF, and an accelerometer at another.
