@@ -124,7 +124,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
 
-    /// An accelerometer and a laser of a fifth of its deviation (as displacement) at one DOF, and an accelerometer at another.
+    /// An accelerometer and a displacement sensor of a fifth of its deviation (in m) at one DOF, and a velocity sensor at another.
     #[test]
     fn sensors_at_one_dof_are_averaged_by_the_inverse_of_their_variances() {
         let omega = 10.0;
