@@ -86,7 +86,18 @@ impl Whitening {
     /// Whitened real and imaginary parts of all harmonics, local parameters not eliminated; `value(c, h)` is the entry of
     /// response channel `c` at harmonic `h`.
     pub(crate) fn rows(&self, value: impl Fn(usize, usize) -> c64) -> Vec<f64> {
-        (1..=self.factors.len()).flat_map(|h| self.apply(h, |c| value(c, h))).flat_map(|e| [e.re, e.im]).collect()
+        let mut rows = Vec::with_capacity(self.len());
+        let mut white = Vec::with_capacity(self.alive.len());
+        for (i, factor) in self.factors.iter().enumerate() {
+            white.clear();
+            white.extend(self.alive.iter().map(|&c| value(c, i + 1)));
+            // Most derivatives are of the fundamental alone.
+            if white.iter().any(|e| *e != c64::new(0.0, 0.0)) {
+                factor.whiten(&mut white);
+            }
+            white.iter().for_each(|e| rows.extend([e.re, e.im]));
+        }
+        rows
     }
 
     /// `ln det` of the covariance of all real values, what is the run's own not included.

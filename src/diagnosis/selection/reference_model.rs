@@ -70,7 +70,7 @@ impl<'a> ReferenceModel<'a> {
     /// Noise of the residual of a model with `effects` and its predictions.
     pub(crate) fn noise_of(&self, effects: &[Source], of: &[RunPrediction]) -> Result<NoiseModel, DiagnosisError> {
         let whitening = |(r, run): (usize, &RunData), a: &Transfers| Whitening::new(run, a, &of[r].truncation);
-        Ok(NoiseModel::new(self.whitened_runs(effects, whitening)?, &self.linearisation))
+        Ok(NoiseModel::new(self.whitened_runs(effects, whitening)?, &self.linearisation, self.control))
     }
 
     /// The same where higher harmonics of which the model can say nothing count for nothing.
@@ -80,7 +80,7 @@ impl<'a> ReferenceModel<'a> {
         of: &[RunPrediction],
     ) -> Result<NoiseModel, DiagnosisError> {
         let errors = unpredictable(self.data, &self.linearisation, of);
-        Ok(NoiseModel::new(self.noise_beside(effects, of, &errors)?, &self.linearisation))
+        Ok(NoiseModel::new(self.noise_beside(effects, of, &errors)?, &self.linearisation, self.control))
     }
 
     /// Noise of the residual of each run in which places are looked for, with what derivatives by the model leave of its higher
@@ -107,14 +107,15 @@ impl<'a> ReferenceModel<'a> {
     fn whitened_runs(
         &self,
         effects: &[Source],
-        whitening: impl Fn((usize, &RunData), &Transfers) -> Whitening,
+        whitening: impl Fn((usize, &RunData), &Transfers) -> Whitening + Sync,
     ) -> Result<Vec<Whitening>, DiagnosisError> {
-        let whitened_run = |(r, run): (usize, &RunData)| {
+        let whitened_run = |r: usize| {
+            let run = &self.data.runs[r];
             let failed = |reason| DiagnosisError::of_response(format!("number {}", run.index + 1), reason);
             let a = transfers(&self.predictor, r, run, effects, self.control).map_err(failed)?;
             Ok(whitening((r, run), &a))
         };
-        self.data.runs.iter().enumerate().map(whitened_run).collect()
+        self.control.map(self.data.runs.len(), whitened_run).into_iter().collect()
     }
 
     /// What fits on the response are made with.

@@ -196,7 +196,7 @@ impl ReferenceModel<'_> {
                     }
                 }
             }
-            for (k, expansion) in self.linearisation.expansions.get(r).into_iter().flatten().enumerate() {
+            for (k, expansion) in self.linearisation.derivatives.expansions.get(r).into_iter().flatten().enumerate() {
                 if let Some(expansion) = expansion {
                     expansion.correct(run, k + 1, field.col_as_slice_mut(k));
                 }

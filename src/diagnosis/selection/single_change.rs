@@ -126,7 +126,7 @@ impl<'a> ReferenceModel<'a> {
         };
         let mut rows = Vec::with_capacity(self.count());
         for (r, run) in self.data.runs.iter().enumerate() {
-            let amplitudes = &self.linearisation.amplitudes[r];
+            let amplitudes = &self.linearisation.derivatives.amplitudes[r];
             let slope = |c: usize, h: usize| {
                 // A force that is read too large stands for one that is smaller.
                 let own = match &run.responses[c].name {

@@ -10,7 +10,7 @@ use crate::diagnosis::selection::found::{agrees, most_of_noise};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
-use crate::diagnosis::updating::noise_model::{Linearisation, NoiseModel, amplitudes, of_channel};
+use crate::diagnosis::updating::noise_model::{Derivatives, Linearisation, amplitudes, of_channel};
 use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
 use crate::diagnosis::updating::scales::Scales;
 use crate::diagnosis::updating::shape_errors::ShapeErrors;
@@ -124,15 +124,17 @@ impl<'a> ReferenceModel<'a> {
         let expansions = seen.map_or_else(Vec::new, |seen| seen.expansions);
         Linearisation {
             updating: updating.clone(),
-            common,
-            at_motion,
+            derivatives: Arc::new(Derivatives {
+                common,
+                at_motion,
+                stiffness,
+                level,
+                expansions,
+                amplitudes,
+                leverage,
+            }),
             doubts_harmonics,
             of_fundamentals: self.linearisation.of_fundamentals,
-            stiffness,
-            level,
-            expansions,
-            leverage,
-            amplitudes,
         }
     }
 
@@ -282,7 +284,7 @@ impl<'a> ReferenceModel<'a> {
     pub(crate) fn with_scales(&self, scales: Scales) -> ReferenceModel<'a> {
         let updating = self.linearisation.updating.with_scales(scales);
         let linearisation = Linearisation { updating, ..(*self.linearisation).clone() };
-        let noise = NoiseModel::new(self.noise.runs.clone(), &linearisation);
+        let noise = self.noise.rescaled(&linearisation);
         ReferenceModel { linearisation: Arc::new(linearisation), noise: Arc::new(noise), ..self.clone() }
     }
 

@@ -10,8 +10,9 @@
 
 use super::parameters::Updating;
 use super::scales::Scales;
-use dashpot_numerics::{Cholesky, dot, thin_qr, transposed_product};
+use dashpot_numerics::{Cholesky, dot, thin_qr};
 use faer::Mat;
+use std::sync::OnceLock;
 
 /// Updating parameters at a reference with what they do to the residual there.
 #[derive(Debug, Clone, Default)]
@@ -20,8 +21,8 @@ pub(crate) struct Marginalisation {
     pub updating: Updating,
     /// `B`, one column a parameter: derivative of the whitened prediction, one row a datum.
     slopes: Vec<Vec<f64>>,
-    /// `Q`, one column a parameter, data rows first.
-    basis: Vec<Vec<f64>>,
+    /// `Q`, one column a parameter, data rows first; computed when a residual asks for it.
+    basis: OnceLock<Vec<Vec<f64>>>,
     /// `B u_0`.
     offset: Vec<f64>,
     /// `1 + B^T B`.
@@ -40,21 +41,41 @@ impl Marginalisation {
             return Self { updating, ..Self::default() };
         }
         let n = slopes[0].len();
-        let stacked = Mat::from_fn(n + q, q, |i, k| match i.checked_sub(n) {
-            Some(row) => f64::from(u8::from(row == k)),
-            None => slopes[k][i],
-        });
-        let normal = transposed_product(stacked.as_ref(), stacked.as_ref());
+        let mut normal = Mat::identity(q, q);
+        for i in 0..q {
+            for j in 0..=i {
+                let product = dot(&slopes[i], &slopes[j]);
+                normal[(i, j)] += product;
+                if i != j {
+                    normal[(j, i)] += product;
+                }
+            }
+        }
         let Some(factor) = Cholesky::new(normal.as_ref()) else { return Self { updating, ..Self::default() } };
-        let (orthonormal, triangle) = thin_qr(stacked.as_ref());
-        let basis = (0..q).map(|k| orthonormal.col_as_slice(k).to_vec()).collect();
-        let log_determinant = (0..q).map(|k| 2.0 * triangle[(k, k)].abs().ln()).sum();
+        let log_determinant = (0..q).map(|k| 2.0 * factor.factor()[(k, k)].ln()).sum();
         let u = updating.standardised();
         let mut offset = vec![0.0; n];
         for (slope, u) in slopes.iter().zip(&u) {
             offset.iter_mut().zip(slope).for_each(|(o, s)| *o += u * s);
         }
-        Self { updating, slopes, basis, offset, normal: Some(normal), factor: Some(factor), log_determinant }
+        let (normal, factor) = (Some(normal), Some(factor));
+        Self { updating, slopes, basis: OnceLock::new(), offset, normal, factor, log_determinant }
+    }
+
+    /// `Q`, none where slopes are beyond all numbers.
+    fn basis(&self) -> &[Vec<f64>] {
+        self.basis.get_or_init(|| {
+            let (q, n) = (self.slopes.len(), self.slopes.first().map_or(0, Vec::len));
+            if q == 0 {
+                return Vec::new();
+            }
+            let stacked = Mat::from_fn(n + q, q, |i, k| match i.checked_sub(n) {
+                Some(row) => f64::from(u8::from(row == k)),
+                None => self.slopes[k][i],
+            });
+            let orthonormal = thin_qr(stacked.as_ref()).0;
+            (0..q).map(|k| orthonormal.col_as_slice(k).to_vec()).collect()
+        })
     }
 
     /// Whether no parameter is eliminated.
@@ -80,8 +101,9 @@ impl Marginalisation {
 
     /// Turns a column of a Jacobian into the marginal one.
     pub(crate) fn column(&self, mut rows: Vec<f64>) -> Vec<f64> {
-        rows.resize(rows.len() + self.basis.len(), 0.0);
-        for direction in &self.basis {
+        let basis = self.basis();
+        rows.resize(rows.len() + basis.len(), 0.0);
+        for direction in basis {
             let share = dot(direction, &rows);
             rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
         }

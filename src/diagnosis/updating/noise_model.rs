@@ -14,10 +14,12 @@ use super::marginalisation::Marginalisation;
 use super::modal_expansion::ModalExpansion;
 use super::parameters::{Updating, UpdatingParameter};
 use super::scales::Scales;
+use crate::control::Control;
 use crate::diagnosis::residual::data::{ChannelData, RunData};
 use crate::diagnosis::residual::run_nuisance::RunNuisance;
 use crate::diagnosis::residual::whitening::Whitening;
 use faer::c64;
+use std::sync::Arc;
 
 /// Derivatives of the recorded amplitudes of one run, `[parameter][channel][harmonic - 1]`.
 pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
@@ -27,6 +29,17 @@ pub(crate) type RunSlopes = Vec<Vec<Vec<c64>>>;
 pub(crate) struct Linearisation {
     /// Updating parameters, their values at the reference, and the scales.
     pub updating: Updating,
+    /// Derivatives of the recorded amplitudes, whatever the scales.
+    pub derivatives: Arc<Derivatives>,
+    /// Whether higher harmonics are doubted as far as the model is: else its receptance is taken for exact there.
+    pub doubts_harmonics: bool,
+    /// Whether higher harmonics count for nothing.
+    pub of_fundamentals: bool,
+}
+
+/// Derivatives of the recorded amplitudes at a reference.
+#[derive(Debug, Default)]
+pub(crate) struct Derivatives {
     /// By updating parameters (of unit logarithm or second), one list a run; of fundamentals alone where they are taken at the
     /// measured motion.
     pub common: Vec<RunSlopes>,
@@ -38,10 +51,6 @@ pub(crate) struct Linearisation {
     pub level: Vec<Vec<Vec<c64>>>,
     /// What turns a motion into the one that the sensors show, `[run][harmonic - 1]`; none where derivatives are of the model itself.
     pub(crate) expansions: Vec<Vec<Option<ModalExpansion>>>,
-    /// Whether higher harmonics are doubted as far as the model is: else its receptance is taken for exact there.
-    pub doubts_harmonics: bool,
-    /// Whether higher harmonics count for nothing.
-    pub of_fundamentals: bool,
     /// Amplitudes that gains, delays and factors of runs multiply, `[run][channel][harmonic - 1]`.
     pub amplitudes: Vec<Vec<Vec<c64>>>,
     /// Error of the derivatives at the measured motion, as a factor on the response, one a run; none where they are of the
@@ -52,20 +61,22 @@ pub(crate) struct Linearisation {
 impl Linearisation {
     /// Whether nothing is free.
     pub(crate) fn is_empty(&self) -> bool {
-        self.common.is_empty()
+        self.derivatives.common.is_empty()
     }
 
     /// Derivatives of harmonic `h` of run `r` by the standardised parameters that are common to all runs, then by what differs from run
     /// to run, `[parameter][channel]`; none where nothing is free.
     pub(crate) fn of_harmonic(&self, r: usize, h: usize) -> [Vec<Vec<c64>>; 2] {
         let free = h == 1 || self.doubts_harmonics;
-        let Some(common) = self.at_motion.get(r).or_else(|| self.common.get(r)).filter(|_| free) else {
+        let Derivatives { common, at_motion, amplitudes, .. } = &*self.derivatives;
+        let Some(common) = at_motion.get(r).or_else(|| common.get(r)).filter(|_| free) else {
             return [Vec::new(), Vec::new()];
         };
         let scaled_slope = |(k, slope): (usize, &Vec<Vec<c64>>)| {
             slope.iter().map(|channel| channel[h - 1] * self.updating.prior(k)).collect()
         };
-        let column = |k: usize| (0..self.amplitudes[r].len()).map(|c| self.own(r, k, c, h)).collect();
+        let own = self.own_scales(r);
+        let column = |k: usize| (0..amplitudes[r].len()).map(|c| self.derivatives.own(r, k, c, h) * own[k]).collect();
         [common.iter().enumerate().map(scaled_slope).collect(), (0..OWN).map(column).collect()]
     }
 
@@ -74,19 +85,48 @@ impl Linearisation {
         self.updating.shifts.get(r).map_or_else(Vec::new, |shift| vec![shift / self.updating.scales.shift])
     }
 
-    /// Derivative of channel `c` at harmonic `h` by own parameter `k` of run `r`, standardised.
-    fn own(&self, r: usize, k: usize, c: usize, h: usize) -> c64 {
+    /// Prior deviations of the own parameters of run `r`.
+    fn own_scales(&self, r: usize) -> [f64; OWN] {
         let Scales { shift, response, .. } = self.updating.scales;
-        let response = response.hypot(self.leverage.get(r).copied().unwrap_or(0.0));
-        let (amplitude, level) = (self.amplitudes[r][c][h - 1], self.level[r].get(c));
+        let response = response.hypot(self.derivatives.leverage.get(r).copied().unwrap_or(0.0));
         // What forces are not wrong by multiplies the response.
-        let beyond = if level.is_some() { (response.powi(2) - LEVEL.powi(2)).max(0.0).sqrt() } else { response };
+        let is_felt = !self.derivatives.level[r].is_empty();
+        let beyond = if is_felt { (response.powi(2) - LEVEL.powi(2)).max(0.0).sqrt() } else { response };
+        [shift, beyond, response, response.min(LEVEL)]
+    }
+}
+
+impl Derivatives {
+    /// Derivative of channel `c` at harmonic `h` by own parameter `k` of run `r`.
+    fn own(&self, r: usize, k: usize, c: usize, h: usize) -> c64 {
         match k {
-            0 => self.stiffness[r][c][h - 1] * shift,
-            1 => amplitude * beyond,
-            2 => amplitude * c64::new(0.0, response),
-            _ => level.map_or(c64::new(0.0, 0.0), |level| level[h - 1] * response.min(LEVEL)),
+            0 => self.stiffness[r][c][h - 1],
+            1 => self.amplitudes[r][c][h - 1],
+            2 => self.amplitudes[r][c][h - 1] * c64::new(0.0, 1.0),
+            _ => self.level[r].get(c).map_or(c64::new(0.0, 0.0), |level| level[h - 1]),
         }
+    }
+
+    /// All of run `r`, whitened by its `noise`.
+    fn whitened(&self, r: usize, noise: &Whitening) -> WhitenedDerivatives {
+        WhitenedDerivatives {
+            common: self.common[r].iter().map(|slope| noise.rows(|c, h| slope[c][h - 1])).collect(),
+            own: (0..OWN).map(|k| noise.rows(|c, h| self.own(r, k, c, h))).collect(),
+        }
+    }
+}
+
+/// Derivatives of one run, whitened, one list of rows a parameter: what scales multiply.
+#[derive(Debug, Default)]
+struct WhitenedDerivatives {
+    common: Vec<Vec<f64>>,
+    own: Vec<Vec<f64>>,
+}
+
+impl WhitenedDerivatives {
+    /// Those by the run's own parameters from `first` on, times their `scales`.
+    fn scaled(&self, first: usize, scales: &[f64; OWN]) -> Vec<Vec<f64>> {
+        self.own.iter().zip(scales).skip(first).map(|(rows, scale)| scaled(rows, *scale)).collect()
     }
 }
 
@@ -104,22 +144,67 @@ pub(crate) struct NoiseModel {
     pub runs: Vec<Whitening>,
     /// Updating parameters.
     pub updating: Marginalisation,
+    /// Derivatives of each run.
+    derivatives: Arc<Vec<WhitenedDerivatives>>,
 }
 
 impl NoiseModel {
     /// Of the noise of the `runs`, with the parameters of `linearisation` eliminated.
-    pub(crate) fn new(runs: Vec<Whitening>, linearisation: &Linearisation) -> Self {
+    pub(crate) fn new(runs: Vec<Whitening>, linearisation: &Linearisation, control: &Control) -> Self {
         if linearisation.is_empty() {
-            return Self { runs, updating: Marginalisation::default() };
+            return Self { runs, ..Self::default() };
         }
-        let local = |(r, noise): (usize, Whitening)| {
-            let columns = (0..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, k, c, h))).collect();
-            noise.with_nuisance(RunNuisance::new(columns).at(linearisation.own_reference(r)))
+        let whitened = control.map(runs.len(), |r| linearisation.derivatives.whitened(r, &runs[r]));
+        Self { runs, derivatives: Arc::new(whitened), ..Self::default() }.rescaled(linearisation)
+    }
+
+    /// The same noise with the parameters eliminated as far as the scales of `linearisation` let them move, which has the same derivatives.
+    #[must_use]
+    pub(crate) fn rescaled(&self, linearisation: &Linearisation) -> Self {
+        let nuisance = |r: usize, own: &WhitenedDerivatives| {
+            RunNuisance::new(own.scaled(0, &linearisation.own_scales(r))).at(linearisation.own_reference(r))
         };
-        let runs: Vec<Whitening> = runs.into_iter().enumerate().map(local).collect();
         let updating = &linearisation.updating;
-        let slopes = (0..updating.len()).map(|k| common_rows(&runs, linearisation, k)).collect();
-        Self { updating: Marginalisation::new(updating.clone(), slopes), runs }
+        let all: Vec<usize> = (0..updating.len()).filter(|_| !linearisation.is_empty()).collect();
+        self.eliminated(nuisance, updating, &all, updating.clone())
+    }
+
+    /// The same with only what is linear eliminated, for fits that contain the rest: the response of each run, gains and
+    /// delays of the channels.
+    pub(crate) fn of_channels(&self, linearisation: &Linearisation) -> Self {
+        let nuisance =
+            |r: usize, own: &WhitenedDerivatives| RunNuisance::new(own.scaled(1, &linearisation.own_scales(r)));
+        let all = &linearisation.updating;
+        let of_channels: Vec<usize> = (0..all.len()).filter(|&k| !all.parameters[k].is_of_model()).collect();
+        let updating = Updating {
+            parameters: of_channels.iter().map(|&k| all.parameters[k].clone()).collect(),
+            values: vec![0.0; of_channels.len()],
+            spreads: Vec::new(),
+            ..all.clone()
+        };
+        self.eliminated(nuisance, all, &of_channels, updating)
+    }
+
+    /// The same noise with the own parameters in `nuisance` eliminated, then those of `all` that are `free`, which are `updating`.
+    fn eliminated(
+        &self,
+        nuisance: impl Fn(usize, &WhitenedDerivatives) -> RunNuisance,
+        all: &Updating,
+        free: &[usize],
+        updating: Updating,
+    ) -> Self {
+        let mut slopes = vec![Vec::with_capacity(self.count()); free.len()];
+        let local = |(r, (noise, derivatives)): (usize, (&Whitening, &WhitenedDerivatives))| {
+            let nuisance = nuisance(r, derivatives);
+            for (slope, &k) in slopes.iter_mut().zip(free) {
+                let mut rows = scaled(&derivatives.common[k], all.prior(k));
+                nuisance.project(&mut rows);
+                slope.extend(rows);
+            }
+            noise.clone().with_nuisance(nuisance)
+        };
+        let runs = self.runs.iter().zip(&*self.derivatives).enumerate().map(local).collect();
+        Self { updating: Marginalisation::new(updating, slopes), runs, derivatives: self.derivatives.clone() }
     }
 
     /// Number of real data.
@@ -164,37 +249,8 @@ impl NoiseModel {
     }
 }
 
-impl NoiseModel {
-    /// The same with only what is linear eliminated, for fits that contain the rest: the response of each run, gains and
-    /// delays of the channels.
-    pub(crate) fn of_channels(&self, linearisation: &Linearisation) -> Self {
-        let local = |(r, noise): (usize, &Whitening)| {
-            let columns = (1..OWN).map(|k| noise.rows(|c, h| linearisation.own(r, k, c, h))).collect();
-            noise.clone().with_nuisance(RunNuisance::new(columns))
-        };
-        let runs: Vec<Whitening> = self.runs.iter().enumerate().map(local).collect();
-        let all = &linearisation.updating;
-        let of_channels: Vec<usize> = (0..all.len()).filter(|&k| !all.parameters[k].is_of_model()).collect();
-        let updating = Updating {
-            parameters: of_channels.iter().map(|&k| all.parameters[k].clone()).collect(),
-            values: vec![0.0; of_channels.len()],
-            spreads: Vec::new(),
-            ..all.clone()
-        };
-        let slopes = of_channels.iter().map(|&k| common_rows(&runs, linearisation, k)).collect();
-        Self { updating: Marginalisation::new(updating, slopes), runs }
-    }
-}
-
-/// Whitened derivative of all runs by the standardised updating parameter `k`, what is each run's own eliminated.
-fn common_rows(runs: &[Whitening], linearisation: &Linearisation, k: usize) -> Vec<f64> {
-    let mut rows = Vec::new();
-    for (noise, slopes) in runs.iter().zip(&linearisation.common) {
-        let mut own = noise.rows(|c, h| slopes[k][c][h - 1] * linearisation.updating.prior(k));
-        noise.nuisance().project(&mut own);
-        rows.extend(own);
-    }
-    rows
+fn scaled(rows: &[f64], scale: f64) -> Vec<f64> {
+    rows.iter().map(|row| row * scale).collect()
 }
 
 /// Effective number of parameters of a class that the data determine from which on its scale is estimated.

@@ -62,7 +62,7 @@ fn the_level_of_a_run_is_that_of_its_force() {
         let louder = ReferenceModel { data: &data, ..reference.shallow() };
         let (here, there) = (response(&reference), response(&louder));
         let mut unlike: f64 = 0.0;
-        for (r, level) in reference.linearisation.level.iter().enumerate() {
+        for (r, level) in reference.linearisation.derivatives.level.iter().enumerate() {
             for (c, level) in level.iter().enumerate() {
                 let difference = (there[r].channels[c][0] - here[r].channels[c][0]) / STEP;
                 assert!((level[0] - difference).norm() < 1e-3 * difference.norm(), "{} for {difference}", level[0]);
@@ -72,5 +72,5 @@ fn the_level_of_a_run_is_that_of_its_force() {
         unlike
     };
     assert!(with_stated(&effects, |reference| follows(reference, &effects)) > 0.3);
-    assert!(with_stated(&[], |reference| reference.linearisation.level.iter().all(Vec::is_empty)));
+    assert!(with_stated(&[], |reference| reference.linearisation.derivatives.level.iter().all(Vec::is_empty)));
 }
