@@ -31,11 +31,16 @@ fn tests(truth: &[Source]) -> Vec<TransientRun> {
 
 /// The same, sampled at `rate`, Hz.
 fn sampled_tests(truth: &[Source], rate: f64) -> Vec<TransientRun> {
+    tests_of(rate, |loading, samples| component_force(truth, MASS, loading, rate, samples).unwrap())
+}
+
+/// The same of a component whose displacement and force, of as many samples, are computed by `force`.
+fn tests_of(rate: f64, force: impl Fn(&Loading, usize) -> (Vec<f64>, Vec<f64>)) -> Vec<TransientRun> {
     let channel = |quantity| Channel { quantity, dof: 0, label: "1".into() };
     let recorded_test = |(k, (amplitude_m, frequency_hz)): (usize, (f64, f64))| {
         let loading = Loading::Cycles { amplitude_m, frequency_hz, ramp_s: 0.5 / frequency_hz };
         let samples = (rate * 4.0 / frequency_hz) as usize;
-        let (d, f) = component_force(truth, MASS, &loading, rate, samples).unwrap();
+        let (d, f) = force(&loading, samples);
         let time: Vec<f64> = (0..samples).map(|n| n as f64 / rate).collect();
         let noise = Some(Noise { ratio: 0.003, seed: 3, stream: k as u64 });
         let made =
@@ -49,7 +54,12 @@ fn sampled_tests(truth: &[Source], rate: f64) -> Vec<TransientRun> {
 }
 
 fn diagnosed(known: &[Source], runs: &[TransientRun]) -> Diagnosis {
-    let loops = Loops::new(&structure(), known, runs).unwrap();
+    diagnosed_with(MASS, known, runs)
+}
+
+fn diagnosed_with(mass: f64, known: &[Source], runs: &[TransientRun]) -> Diagnosis {
+    let structure = ComponentParameters { dof: "1".into(), mass }.build().unwrap();
+    let loops = Loops::new(&structure, known, runs).unwrap();
     diagnose_component(&loops, &[], &Control::unattended(), &|_| {}).unwrap()
 }
 
@@ -159,6 +169,50 @@ fn a_law_of_a_sum_is_exchanged_for_the_right_one() {
     let mut laws: Vec<&str> = diagnosis.steps.last().unwrap().added.iter().map(|a| a.source.effect.name()).collect();
     laws.sort_unstable();
     assert_eq!(laws, ["iwan", "power"]);
+}
+
+/// Two hundred sliders in parallel whose limits are spread evenly (Iwan 1966): `chi = 0`, `beta = 0`, both at the end of their range, where
+/// the force does not tell `beta` to first order.
+#[test]
+fn sliders_that_slip_evenly_are_an_iwan_joint() {
+    let (stiffness, force, count) = (4e6, 9000.0, 200);
+    let sliders = |loading: &Loading, samples: usize| {
+        let (d, _) = component_force(&[], 0.0, loading, 256.0, samples).unwrap();
+        let (spring, mut held) = (stiffness / f64::from(count), vec![0.0_f64; count as usize]);
+        let mut last = 0.0;
+        let total = |x: &f64| {
+            for (k, f) in held.iter_mut().enumerate() {
+                let limit = 2.0 * force * (k as f64 + 0.5) / f64::from(count).powi(2);
+                *f = (*f + spring * (x - last)).clamp(-limit, limit);
+            }
+            last = *x;
+            held.iter().sum()
+        };
+        let f = d.iter().map(total).collect();
+        (d, f)
+    };
+    let diagnosis = diagnosed_with(0.0, &[], &tests_of(256.0, sliders));
+    let set = &diagnosis.steps.last().unwrap().added;
+    assert!(set.len() == 1 && set[0].source.effect == Effect::Iwan, "{set:?}");
+    let [found_stiffness, found_force, chi, beta] = set[0].source.parameters[..] else { panic!("four parameters") };
+    assert!((found_stiffness / stiffness - 1.0).abs() < 0.03 && (found_force / force - 1.0).abs() < 0.03, "{set:?}");
+    assert!(chi > -0.1 && beta < 0.5, "{set:?}");
+}
+
+/// Loops within a clearance hold noise alone, and are no reason to call the others unexplained.
+#[test]
+fn loops_without_a_force_count_for_nothing() {
+    let truth = [at(Effect::Gap, &[5e5, 8e-3])];
+    let force = |loading: &Loading, samples: usize| {
+        let (d, mut f) = component_force(&truth, 0.0, loading, 256.0, samples).unwrap();
+        // A force cell has noise where nothing pulls at it.
+        f.iter_mut().enumerate().for_each(|(n, f)| *f += 10.0 * (1.7 * (n * n) as f64).sin());
+        (d, f)
+    };
+    let diagnosis = diagnosed_with(0.0, &[], &tests_of(256.0, force));
+    let last = diagnosis.steps.last().unwrap();
+    assert!(last.error > 0.5, "two loops of six are silent: {}", last.error);
+    assert_eq!((diagnosis.verdict, diagnosis.suggestions[0].added.source.effect), (Verdict::Missing, Effect::Gap));
 }
 
 /// Where a record holds the velocity, the displacement is what it integrates to, whatever the zero of that sensor.

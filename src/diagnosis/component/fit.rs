@@ -3,7 +3,7 @@
 use crate::balance::loops::{ComponentError, Loop, Loops};
 use crate::control::Control;
 use crate::diagnosis::records::variables::{at_variable, scales, slopes, variable};
-use crate::effects::Source;
+use crate::effects::{Parameter, Source};
 use crate::math::statistics::root_mean_square;
 use dashpot_numerics::{Cholesky, dot};
 use faer::Mat;
@@ -12,6 +12,8 @@ use faer::Mat;
 const STEP: f64 = 1e-4;
 /// Largest change of a variable in one iteration.
 const REACH: f64 = 1.0;
+/// Share of what a pure number typically is that is nothing.
+const LEAST_TOLD: f64 = 1e-3;
 /// Independent data of a record: what a law leaves is alike along each branch of a loop, and from one cycle to the next.
 const PER_RECORD: f64 = 8.0;
 
@@ -149,17 +151,37 @@ pub(super) fn error(loops: &Loops, effects: &[Source], used: &[usize]) -> Result
     Ok(root_mean_square(&all))
 }
 
+/// Share of the force of all records together that `effects` leave, root of the ratio of squares: that of a record in which the component
+/// gives no force, whose error is all noise, counts for nothing.
+pub(super) fn left_of_all(loops: &Loops, effects: &[Source]) -> Result<f64, ComponentError> {
+    let (mut rest, mut size) = (0.0, 0.0);
+    for one in &loops.list {
+        let share = left(loops, one, effects)?;
+        size += one.size().powi(2);
+        rest += dot(&share, &share) * one.size().powi(2);
+    }
+    Ok((rest / size).sqrt())
+}
+
 fn moved(effects: &[Source], scales: &[Vec<f64>], change: &[f64]) -> Vec<Source> {
     let mut next = effects.to_vec();
     let mut k = 0;
     for (effect, scales) in next.iter_mut().zip(scales) {
         for (j, parameter) in effect.effect.parameters().iter().enumerate() {
             let now = variable(parameter, scales[j], effect.parameters[j]);
-            effect.parameters[j] = at_variable(parameter, scales[j], now + change[k].clamp(-REACH, REACH))[0];
+            let value = at_variable(parameter, scales[j], now + change[k].clamp(-REACH, REACH))[0];
+            effect.parameters[j] = value.max(least_told(parameter));
             k += 1;
         }
     }
     next
+}
+
+/// The least value that loops can tell from nothing of a parameter that is a pure number from 0 upwards: below it derivatives by the
+/// logarithm, in which it is varied, are those of rounding.
+fn least_told(parameter: &Parameter) -> f64 {
+    let is_number = parameter.unit.is_empty() && parameter.least == 0.0;
+    if is_number { LEAST_TOLD * parameter.typical.abs() } else { f64::NEG_INFINITY }
 }
 
 /// Derivatives of the residual by every variable, one list each.

@@ -8,12 +8,12 @@
 //!    ([`super::ranking`]).
 
 use super::compare::noise_floor;
-use super::fit::{Fitted, Ranked, error, freedom, improved, predicted, without_repeats};
+use super::fit::{Fitted, Ranked, error, freedom, improved, left_of_all, predicted, without_repeats};
 use crate::balance::loops::{ComponentError, Loops};
 use crate::control::Control;
 use crate::diagnosis::candidates::special_cases::is_allowed;
 use crate::diagnosis::result::{Added, Diagnosis, Early, Step, Suggestion, Verdict};
-use crate::effects::Source;
+use crate::effects::{Range, Source};
 use crate::math::statistics::{evidence_weights, root_mean_square};
 
 /// Fits of one law, of two and of three.
@@ -25,7 +25,7 @@ const ITERATIONS: usize = 20;
 /// of the other two.
 const AGREES: f64 = 1.1;
 const LACKING: f64 = 2.0;
-/// Error from which on the best laws explain nothing.
+/// Share of the force of all records together from which on the best laws explain nothing.
 const POOR: f64 = 0.5;
 /// Difference of evidence within which laws cannot be told apart.
 const ALIKE: f64 = 6.0;
@@ -94,8 +94,8 @@ pub fn diagnose_component(
         first.evidence.extend(beyond_noise(best.error(records) / floor.max(f64::MIN_POSITIVE)));
     }
     let sure = diagnosis.suggestions.first().is_some_and(|s| s.probability >= 0.5);
-    diagnosis.verdict = match best.error(records) {
-        error if error > POOR => Verdict::Unexplained,
+    diagnosis.verdict = match left_of_all(loops, &best.effects)? {
+        left if left > POOR => Verdict::Unexplained,
         _ if sure => Verdict::Missing,
         _ => Verdict::Undecided,
     };
@@ -137,7 +137,7 @@ impl Search<'_> {
             f.effects.iter().all(|e| {
                 let own = &f.deviations[at..at + e.parameters.len()];
                 at += e.parameters.len();
-                is_allowed(self.excluded, e, own) && is_determined(e, own) && !e.is_disguised()
+                is_allowed(self.excluded, e, own) && is_determined(e, own, &range) && !e.is_disguised()
             })
         });
         fits.sort_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
@@ -226,10 +226,22 @@ fn distinct(laws: &[Source]) -> Vec<Source> {
 }
 
 /// Whether the loops fix every size of a law, and every parameter of one that has simpler laws as limits, to within its own size: what
-/// they do not fix is nothing, or a simpler law by another name.
-fn is_determined(source: &Source, deviations: &[f64]) -> bool {
+/// they do not fix is nothing, or a simpler law by another name. A pure number may be uncertain by more than its size where no limit is
+/// that near: the share of the sliders of a joint that slip last is nothing, to first order without effect there.
+fn is_determined(source: &Source, deviations: &[f64], range: &Range) -> bool {
     let has_limits = source.effect.limits().next().is_some();
-    let fixed = |k: usize| deviations[k].is_finite() && deviations[k] < source.parameters[k].abs();
+    let near_limit = |k: usize| {
+        let at = |value: f64| {
+            let mut moved = source.clone();
+            moved.parameters[k] = value;
+            source.effect.parameters()[k].allows(value) && moved.simpler(range).is_some()
+        };
+        at(source.parameters[k] + deviations[k]) || at(source.parameters[k] - deviations[k])
+    };
+    let is_number = |k: usize| source.effect.parameters()[k].unit.is_empty();
+    let fixed = |k: usize| {
+        deviations[k].is_finite() && (deviations[k] < source.parameters[k].abs() || (is_number(k) && !near_limit(k)))
+    };
     (0..source.parameters.len()).filter(|k| has_limits || source.effect.scaled().contains(k)).all(fixed)
 }
 
