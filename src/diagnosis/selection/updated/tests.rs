@@ -9,10 +9,13 @@ use crate::diagnosis::Problem;
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::result::Suggestion;
 use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
+use crate::diagnosis::updating::noise_model::OWN;
 use crate::effects::Effect;
 use crate::measurement::Run;
 use crate::response::harmonic_balance::{Excitation, ForwardModel};
 use crate::structure::Part;
+use dashpot_numerics::{Cholesky, dot};
+use faer::Mat;
 
 /// Runs about the first two modes of a beam with a dashpot at its tip, on a clamp of which a fifth is left.
 fn runs(held: Part, known: &[Source]) -> Vec<Run> {
@@ -73,4 +76,53 @@ fn the_level_of_a_run_is_that_of_its_force() {
     };
     assert!(with_stated(&effects, |reference| follows(reference, &effects)) > 0.3);
     assert!(with_stated(&[], |reference| reference.linearisation.derivatives.level.iter().all(Vec::is_empty)));
+}
+
+/// Whatever the scales, what is left with all parameters eliminated is `r^T C^-1 r`, and what they cost is `ln det C`, of the covariance
+/// `C = 1 + B B^T + V V^T` of the whitened residual `r` itself.
+#[test]
+fn eliminated_parameters_are_a_covariance_at_all_scales() {
+    let effects = [hidden()];
+    let differences = |reference: ReferenceModel| {
+        let predictions = reference.estimator().predict(&effects, &FINAL, &Vec::new()).unwrap();
+        let list = reference.linearisation.updating.scales.list();
+        let compared = |factor: f64| {
+            let scaled = reference.with_scales(Scales::from_list(list.map(|scale| factor * scale)));
+            let (covariance, rows) = covariance(&scaled.doubting_harmonics(), &predictions);
+            let solved = Cholesky::new(covariance.as_ref()).unwrap();
+            let right = Mat::from_fn(rows.len(), 1, |i, _| rows[i]);
+            let square = dot(&rows, solved.solve(right.as_ref()).col_as_slice(0));
+            let log_determinant: f64 = (0..rows.len()).map(|i| 2.0 * solved.factor()[(i, i)].ln()).sum();
+            let told = sum_of_squares(&scaled.estimator().residual(&predictions));
+            let cost = scaled.noise.cost() - scaled.linearisation.updating.scales.prior_cost();
+            [told / square - 1.0, cost / log_determinant - 1.0]
+        };
+        [1.0, 0.3, 4.0].map(compared)
+    };
+    for [square, determinant] in with_stated(&effects, differences) {
+        assert!(square.abs() < 1e-6 && determinant.abs() < 1e-6, "{square} {determinant}");
+    }
+}
+
+/// Covariance of the whitened residual of all runs, entry by entry, and that residual.
+fn covariance(reference: &ReferenceModel, predictions: &[RunPrediction]) -> (Mat<f64>, Vec<f64>) {
+    let (data, linearisation) = (reference.data, &reference.linearisation);
+    assert!(linearisation.updating.values.iter().all(|value| *value == 0.0), "nothing is corrected yet");
+    let (mut rows, mut common) = (Vec::new(), vec![Vec::new(); linearisation.updating.len()]);
+    let mut own = Vec::new();
+    for (r, (run, prediction)) in data.runs.iter().zip(predictions).enumerate() {
+        let (noise, first) = (&reference.noise.runs[r], rows.len());
+        rows.extend(noise.rows(|c, h| run.responses[c].measured[h - 1] - prediction.channels[c][h - 1]));
+        let column = |which: usize, k: usize| noise.rows(|c, h| linearisation.of_harmonic(r, h)[which][k][c]);
+        common.iter_mut().enumerate().for_each(|(k, list)| list.extend(column(0, k)));
+        own.extend((0..OWN).map(|k| (first, column(1, k))));
+    }
+    let mut covariance = Mat::<f64>::identity(rows.len(), rows.len());
+    let columns = common.into_iter().map(|column| (0, column)).chain(own);
+    for (first, column) in columns {
+        for (i, a) in column.iter().enumerate() {
+            column.iter().enumerate().for_each(|(j, b)| covariance[(first + i, first + j)] += a * b);
+        }
+    }
+    (covariance, rows)
 }
