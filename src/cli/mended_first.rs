@@ -7,7 +7,6 @@ use crate::diagnosis::diagnose::faults_of_channels;
 use crate::diagnosis::result::Diagnosis;
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;
-use crate::exchange::project::plan;
 use crate::session::validation::{ValidationError, agreement, channel_faults, has_records, is_component, problem};
 use crate::session::{Document, Session, mending};
 use anyhow::Context;
@@ -56,8 +55,7 @@ pub(super) fn mended_first(
         let Ok(mended) = mended else { return Ok((project, None)) };
         document = mended;
     }
-    let text = document.file().to_toml().with_context(context)?;
-    let mended = plan(&text, file).and_then(|plan| plan.load(control))?;
+    let mended = document.plan(file).and_then(|plan| plan.load(control))?;
     eprintln!("{}: mended first", faults.iter().map(ChannelFault::words).collect::<Vec<_>>().join("; "));
     Ok((mended, Some(MendedFirst { document, unmended: project, faults })))
 }

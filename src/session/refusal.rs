@@ -1,7 +1,6 @@
 //! Why a change of the document was refused.
 
 use crate::effects::Effect;
-use crate::effects::source::SourceError;
 use crate::exchange::project::{Problem, ProjectError};
 use crate::structure::StructureError;
 
@@ -9,8 +8,6 @@ use crate::structure::StructureError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Refusal {
-    #[error("`{law}` is already drawn between the same DOFs ({place}); change that one instead")]
-    DrawnTwice { law: Effect, place: String },
     #[error("there is no `{law}` at {place}; choose a source of the pattern")]
     NoSuchSource { law: Effect, place: String },
     #[error("the family `{family}` of `{law}` is already drawn")]
@@ -23,8 +20,6 @@ pub enum Refusal {
     NotWhole { name: String, value: f64 },
     #[error("only a beam has supports; this structure is a {kind}")]
     NoSupports { kind: &'static str },
-    #[error("a structure of points has no mass matrix to add a lumped mass to")]
-    MassOnPoints,
     #[error("there is no lumped mass at DOF {dof}")]
     NoLumpedMass { dof: String },
     #[error("the run {file} is not in the project; choose one of its runs")]
@@ -35,8 +30,6 @@ pub enum Refusal {
     NoFile,
     #[error("`{name}` must be {range}, not {value}")]
     OutOfRange { name: &'static str, range: &'static str, value: f64 },
-    #[error("`{channel}` is not a channel of this structure; write force@DOF, acc@DOF, vel@DOF or disp@DOF")]
-    NoSuchChannel { channel: String },
     #[error("`{law}` is ruled out there already")]
     RuledOutTwice { law: Effect },
     #[error("`{law}` is not ruled out there")]
@@ -47,12 +40,8 @@ pub enum Refusal {
     NotMended { channel: String, reason: String },
     #[error("an empty text cannot be the name of a file")]
     EmptyName,
-    #[error("the project cannot be written as TOML: {reason}")]
-    NotWritable { reason: String },
     #[error(transparent)]
     Structure(#[from] StructureError),
-    #[error(transparent)]
-    Source(#[from] SourceError),
     #[error(transparent)]
     Pattern(Box<Problem>),
     #[error(transparent)]

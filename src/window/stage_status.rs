@@ -36,7 +36,7 @@ impl App {
             Stage::Structure if p.structure.len() == 1 => StageStatus::done("1 degree of freedom."),
             Stage::Structure => StageStatus::done(&format!("{} degrees of freedom.", p.structure.len())),
             Stage::Pattern => {
-                let open = p.sources.iter().filter(|s| matches!(s.state, State::Candidate | State::Forced)).count();
+                let open = p.sources.iter().filter(|s| s.state.is_sought()).count();
                 if open == 0 {
                     StageStatus::empty("No candidates: click on the schematic or add a family.")
                 } else {

@@ -200,7 +200,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
             what.takes(key).map_err(|problem| table.error(key, problem))?;
         }
         tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
-        lines.correction.push(table.line());
+        lines.note(&table);
     }
     Ok(tables)
 }

@@ -341,6 +341,11 @@ impl ProjectFile {
         toml::to_string(self)
     }
 
+    /// What is stated of a channel.
+    pub(crate) fn sensor_at(&self, channel: &str) -> Option<&SensorTable> {
+        self.sensor.iter().find(|table| table.channel.trim() == channel.trim())
+    }
+
     /// Whether runs of this kind are fitted as steady states; loops of a component are compared as they are, whatever they
     /// are called.
     pub fn is_steady(&self, kind: Kind) -> bool {

@@ -25,7 +25,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ModesTabl
         table.only(&["file", "dofs"])?;
         let file = table.need("file", "file = \"modes.uff\"", table.text("file")?)?;
         tables.push(ModesTable { file, dofs: dofs(&table, "dofs", "[modes.dofs]")? });
-        lines.modes.push(table.line());
+        lines.note(&table);
     }
     Ok(tables)
 }

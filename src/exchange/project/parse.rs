@@ -5,7 +5,7 @@ use super::file::{
     CandidatesTable, FORMAT, Header, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape, SimulateTable,
     SourceTable, StructureTable,
 };
-use super::keys::{elements, key_lines};
+use super::keys::elements;
 use super::label::Label;
 use super::reader::{Origin, Table};
 use super::runs::{harmonics, runs};
@@ -125,7 +125,7 @@ fn header(root: &Table<'_>) -> Read<Header> {
 
 fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     let table = root.need("structure", "[structure]", root.table("structure", "[structure]")?)?;
-    lines.structure = key_lines(&table);
+    lines.note(&table);
     let kinds = ["beam", "chain", "matrices", "points", "component"];
     let kind = table.word("kind", &kinds, |word| kinds.iter().position(|&kind| kind == word))?;
     let shape = match table.need("kind", "kind = \"beam\"", kind)? {
@@ -138,7 +138,7 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     let mut lumped_mass = Vec::new();
     for entry in table.tables("lumped_mass", "[[structure.lumped_mass]]")? {
         entry.only(&["dof", "mass"])?;
-        lines.lumped_mass.push(entry.line());
+        lines.note(&entry);
         let dof = entry.need("dof", "dof = 3", entry.label("dof")?)?;
         lumped_mass.push(LumpedMass { dof, mass: entry.need("mass", "mass = 0.1", entry.number("mass")?)? });
     }
@@ -243,7 +243,7 @@ fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
         let state = table.need("state", "state = \"candidate\"", table.word("state", &states, state)?)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         sources.push(SourceTable { law, dofs, elements: elements(&table)?, state, parameters });
-        lines.source.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(sources)
 }
@@ -255,7 +255,7 @@ fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>>
         let family = table.word("where", &Family::ALL.map(Family::name), Family::from_name)?;
         let family = table.need("where", "where = \"each-translation\"", family)?;
         families.push(CandidatesTable { law, family, parameters });
-        lines.candidates.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(families)
 }
@@ -270,7 +270,7 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
             table.need::<()>("gain", "gain = 1.02` or `delay = 1e-4", None)?;
         }
         sensors.push(SensorTable { channel, delay, gain });
-        lines.sensor.push(table.line());
+        lines.note(&table);
     }
     Ok(sensors)
 }
@@ -319,7 +319,7 @@ fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
     table.only(&["channels", "samples", "periods", "integrate", "rate_hz", "bits", "filter"])?;
-    lines.simulate = table.line_of("channels");
+    lines.note(&table);
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";
     recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);

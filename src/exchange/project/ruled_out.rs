@@ -31,7 +31,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<RuledOutT
         let law = table.need("law", "law = \"coulomb\"", law)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         tables.push(RuledOutTable { law, dofs, elements: elements(&table)?, channel: table.text("channel")? });
-        lines.ruled_out.push(super::keys::key_lines(&table));
+        lines.note(&table);
     }
     Ok(tables)
 }

@@ -3,7 +3,7 @@
 use super::error::{Problem, ProjectError};
 use super::file::{HarmonicsTable, Lines, RunTable};
 use super::frf::dofs;
-use super::keys::{above_zero, key_lines};
+use super::keys::above_zero;
 use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
@@ -59,7 +59,7 @@ pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
         table.only(&RUN)?;
         runs.push(run(&table)?);
         base::half_a_base(&table, runs.last())?;
-        lines.run.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(runs)
 }
@@ -153,7 +153,7 @@ pub(super) fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<Harmoni
             set: table.text("set")?,
             phases: phases_of(&table)?,
         });
-        lines.harmonics.push(table.line());
+        lines.note(&table);
     }
     Ok(files)
 }

@@ -17,7 +17,7 @@ pub(crate) const NO_CANDIDATES: &str =
 
 /// Whether any source is to be identified.
 pub(crate) fn has_candidates(p: &Project) -> bool {
-    p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced))
+    p.sources.iter().any(|s| s.state.is_sought())
 }
 
 /// The answer of the identification, or what is shown in its place.

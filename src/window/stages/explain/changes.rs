@@ -152,7 +152,7 @@ fn take_over(document: &Document, found: Option<Cached<Outcome>>) -> Result<Opti
 
 /// Sources that were sought and identified, with their coefficients.
 fn sought(sources: &[Source], outcome: &Outcome) -> Vec<(usize, f64)> {
-    let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
+    let sought = |s: usize| sources.get(s).is_some_and(|s| s.state.is_sought());
     let found = outcome.sources.iter().filter(|e| sought(e.source) && e.coefficient > 0.0);
     found.map(|e| (e.source, e.coefficient)).collect()
 }

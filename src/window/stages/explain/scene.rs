@@ -16,6 +16,6 @@ pub(super) struct Scene<'a> {
 pub(super) fn is_undamped(document: &Document) -> bool {
     let sources = &document.project.sources;
     let acts = |s: &Source| s.state == State::Known;
-    let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
+    let sought = |s: &Source| s.state.is_sought();
     document.project.structure.matrices().is_some() && sources.iter().any(sought) && !sources.iter().any(acts)
 }
