@@ -11,10 +11,8 @@ use crate::session::validation::problem;
 /// Makes the sources that `outcome` found known in `project` and the others that were sought inactive; a source that is
 /// known there already gets the coefficient on top of its own. Gives what was taken over.
 pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
-    let found = outcome.sources.iter().filter(|e| e.coefficient > 0.0);
-    let taken: Vec<Source> = found
-        .filter_map(|e| project.sources.get(e.source).filter(|s| s.state.is_sought()).map(|s| (s, e.coefficient)))
-        .map(|(s, coefficient)| Source { state: State::Known, ..s.with_coefficient(coefficient) })
+    let taken: Vec<Source> = found(&project.sources, outcome)
+        .map(|(k, coefficient)| Source { state: State::Known, ..project.sources[k].with_coefficient(coefficient) })
         .collect();
     project.sources.iter_mut().filter(|s| s.state.is_sought()).for_each(|s| s.state = State::Off);
     for source in &taken {
@@ -25,6 +23,13 @@ pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
         }
     }
     taken
+}
+
+/// The sources that were sought and found, by their place in the list, with their coefficients.
+pub(crate) fn found<'a>(sources: &'a [Source], outcome: &'a Outcome) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let sought = |k: usize| sources.get(k).is_some_and(|source| source.state.is_sought());
+    let found = outcome.sources.iter().filter(move |e| e.coefficient > 0.0 && sought(e.source));
+    found.map(|e| (e.source, e.coefficient))
 }
 
 /// Whether a project states no damping at all, asks for it, and has runs within the width of a resonance: of what else its model

@@ -1,6 +1,7 @@
 //! Why a change of the document was refused.
 
 use crate::effects::Effect;
+use crate::effects::source::SourceError;
 use crate::exchange::project::{Problem, ProjectError};
 use crate::structure::StructureError;
 
@@ -38,6 +39,12 @@ pub enum Refusal {
     NoSuchPlace { law: Effect, reason: String },
     #[error("{channel} cannot be mended: {reason}")]
     NotMended { channel: String, reason: String },
+    #[error(
+        "{law} is known at this place already, and two of it with other parameters are not one; change its values there"
+    )]
+    NotOne { law: &'static str },
+    #[error("{law} has no coefficient to be taken over")]
+    NoCoefficient { law: &'static str },
     #[error("an empty text cannot be the name of a file")]
     EmptyName,
     #[error(transparent)]
@@ -46,6 +53,12 @@ pub enum Refusal {
     Pattern(Box<Problem>),
     #[error(transparent)]
     Project(#[from] ProjectError),
+}
+
+impl From<SourceError> for Refusal {
+    fn from(error: SourceError) -> Self {
+        Problem::Source(Box::new(error)).into()
+    }
 }
 
 impl From<Problem> for Refusal {

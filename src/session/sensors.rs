@@ -1,6 +1,7 @@
 //! Known errors of the measuring chain in a project file.
 
 use super::refusal::Refusal;
+use crate::effects::{Kind, Source};
 use crate::exchange::project::file::{ProjectFile, SensorTable};
 use crate::exchange::project::lines::At;
 use crate::exchange::project::sources::sensors;
@@ -23,9 +24,13 @@ pub(super) fn set_sensor(
     Ok(())
 }
 
-/// States that a channel is recorded `more` seconds late beside what is stated of it.
-pub(super) fn delay_further(file: &mut ProjectFile, channel: &str, more: f64, on: &Structure) -> Result<(), Refusal> {
+/// Delay (s) and gain of a channel with a further error on top of what is stated of it.
+pub(super) fn further(file: &ProjectFile, channel: &str, error: &Source) -> [Option<f64>; 2] {
     let stated = file.sensor_at(channel);
-    let (delay, gain) = (stated.and_then(|s| s.delay).unwrap_or(0.0), stated.and_then(|s| s.gain));
-    set_sensor(file, channel, [Some(delay + more), gain], on)
+    let (mut delay, mut gain) = (stated.and_then(|s| s.delay), stated.and_then(|s| s.gain));
+    if let (Kind::Channel(law), Some(more)) = (error.effect.kind(), error.parameters.first()) {
+        let value = if law.turns_phase() { &mut delay } else { &mut gain };
+        *value = Some(law.joined(value.unwrap_or(law.neutral()), *more)).filter(|value| *value != law.neutral());
+    }
+    [delay, gain]
 }

@@ -2,7 +2,7 @@
 
 use super::command::SourceAt;
 use super::refusal::Refusal;
-use crate::effects::{Place, Source};
+use crate::effects::Source;
 use crate::exchange::project::file::{ProjectFile, SourceTable};
 use crate::exchange::project::label::Label;
 use crate::exchange::project::ruled_out::RuledOutTable;
@@ -52,15 +52,8 @@ fn write_out(file: &mut ProjectFile, family: usize, structure: &Structure) -> Re
 }
 
 fn written(source: &Source, parameters: &BTreeMap<String, f64>, structure: &Structure) -> SourceTable {
-    let dofs = match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&dof| Label(structure.label(dof).to_owned())).collect(),
-        Place::Whole(_) | Place::Channel(_) => Vec::new(),
-    };
-    let elements = match source.place {
-        Place::Whole(Some([first, last])) => Some([first as i64 + 1, last as i64 + 1]),
-        _ => None,
-    };
-    SourceTable { law: source.effect, dofs, elements, state: source.state, parameters: parameters.clone() }
+    let SourceAt { law, dofs, elements, .. } = SourceAt::of(source, structure);
+    SourceTable { law, dofs: labels(&dofs), elements, state: source.state, parameters: parameters.clone() }
 }
 
 /// The effect that is ruled out, or why it cannot act there.

@@ -6,7 +6,6 @@ use super::stages;
 use super::stages::identified::{NO_CANDIDATES, has_candidates};
 use super::view::Stage;
 use crate::display::words;
-use crate::effects::State;
 use crate::identify::Status;
 use crate::session::validation::has_records;
 

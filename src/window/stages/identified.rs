@@ -1,6 +1,5 @@
 //! What panes of an identification have in common: its outcome or what is shown in its place, heads of columns.
 
-use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::session::validation::has_records;

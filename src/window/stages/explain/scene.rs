@@ -1,6 +1,8 @@
 //! What the panes of the stage Explain read.
 
+use crate::diagnosis::Diagnosis;
 use crate::effects::{Source, State};
+use crate::session::adoption::Adoption;
 use crate::window::document::Document;
 use crate::window::explained::Explained;
 
@@ -10,6 +12,23 @@ pub(super) struct Scene<'a> {
     pub document: &'a Document,
     /// What was computed from it.
     pub explained: &'a Explained,
+}
+
+impl<'a> Scene<'a> {
+    /// What the search found, once it has ended.
+    pub(super) fn diagnosis(&self) -> Option<&'a Diagnosis> {
+        self.explained.diagnosis(self.document)?.as_ref().ok().map(AsRef::as_ref)
+    }
+
+    /// The sources that act in the model, in the order of the project.
+    pub(super) fn known(&self) -> Vec<Source> {
+        self.explained.known(self.document)
+    }
+
+    /// Nothing taken over into the project yet.
+    pub(super) fn adoption(&self) -> Adoption {
+        Adoption::new(self.document.session().document())
+    }
 }
 
 /// Whether no damping acts in the model yet though sources are sought: its errors say nothing of what is missing then.
