@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// What was taken over, and what could not be written.
 #[derive(Debug)]
-pub(crate) struct Adoption {
+pub struct Adoption {
     /// The document with all of it.
     pub document: Document,
     /// The commands that led there, to be undone together.
@@ -31,13 +31,13 @@ pub(crate) struct Adoption {
 
 impl Adoption {
     /// Nothing taken over yet.
-    pub(crate) fn new(document: &Document) -> Self {
+    pub fn new(document: &Document) -> Self {
         let document = document.clone();
         Self { document, commands: Vec::new(), left: Vec::new(), impossible: None, unmended: Vec::new() }
     }
 
     /// Whether all that was to be taken over is written.
-    pub(crate) fn is_complete(&self) -> bool {
+    pub fn is_complete(&self) -> bool {
         self.left.is_empty() && self.impossible.is_none() && self.unmended.is_empty()
     }
 
@@ -52,12 +52,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`] of a correction or a suggestion.
-    pub(crate) fn diagnosis(
-        &mut self,
-        diagnosis: &Diagnosis,
-        known: &[Source],
-        project: &Project,
-    ) -> Result<(), Refusal> {
+    pub fn diagnosis(&mut self, diagnosis: &Diagnosis, known: &[Source], project: &Project) -> Result<(), Refusal> {
         self.corrections(diagnosis, known)?;
         if let Some(first) = diagnosis.suggestions.first() {
             self.set_of(&first.added.source, diagnosis)?;
@@ -77,7 +72,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`] of a number that does not hold.
-    pub(crate) fn corrections(&mut self, diagnosis: &Diagnosis, known: &[Source]) -> Result<(), Refusal> {
+    pub fn corrections(&mut self, diagnosis: &Diagnosis, known: &[Source]) -> Result<(), Refusal> {
         let adopted = adopt_all(&diagnosis.corrections, diagnosis.verdict, known, &self.document);
         self.adopted(adopted)
     }
@@ -86,7 +81,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`] of a number that does not hold.
-    pub(crate) fn correction(&mut self, correction: &Correction, known: &[Source]) -> Result<(), Refusal> {
+    pub fn correction(&mut self, correction: &Correction, known: &[Source]) -> Result<(), Refusal> {
         let adopted = adopt(std::slice::from_ref(correction), known, &self.document);
         self.adopted(adopted)
     }
@@ -100,12 +95,7 @@ impl Adoption {
     ///
     /// # Errors
     /// As [`Self::corrections`] and [`Self::effect`].
-    pub(crate) fn suggestion(
-        &mut self,
-        source: &Source,
-        diagnosis: &Diagnosis,
-        known: &[Source],
-    ) -> Result<(), Refusal> {
+    pub fn suggestion(&mut self, source: &Source, diagnosis: &Diagnosis, known: &[Source]) -> Result<(), Refusal> {
         if diagnosis.is_promised_with_its_set(source) {
             self.corrections(diagnosis, known)?;
         }
@@ -120,7 +110,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`]: the effect does not exist here, or is there already and two of it are not one.
-    pub(crate) fn effect(&mut self, source: &Source) -> Result<(), Refusal> {
+    pub fn effect(&mut self, source: &Source) -> Result<(), Refusal> {
         let command = added(source, &self.document)?;
         self.make(command)
     }
@@ -129,7 +119,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`] of a fault that no mapping can mend.
-    pub(crate) fn fault(&mut self, fault: &ChannelFault, project: &Project) -> Result<(), Refusal> {
+    pub fn fault(&mut self, fault: &ChannelFault, project: &Project) -> Result<(), Refusal> {
         self.make(mending::command(fault, project)?)
     }
 
@@ -137,7 +127,7 @@ impl Adoption {
     ///
     /// # Errors
     /// [`Refusal`]: a law without a coefficient.
-    pub(crate) fn identified(&mut self, found: &[(usize, f64)]) -> Result<(), Refusal> {
+    pub fn identified(&mut self, found: &[(usize, f64)]) -> Result<(), Refusal> {
         let sources = self.document.sources().clone();
         for (source, value) in found.iter().filter_map(|&(index, value)| Some((sources.get(index)?, value))) {
             let k = source.effect.coefficient().ok_or(Refusal::NoCoefficient { law: source.effect.title() })?;

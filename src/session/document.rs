@@ -167,3 +167,24 @@ impl From<Plan> for Document {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    const TWICE: &str = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1.0]\nground_stiffness = [1.0]\n\
+        coupling_stiffness = []\n[[sensor]]\nchannel = \"acc@1\"\ngain = 1.1\n[[sensor]]\nchannel = \"acc@1\"\ngain = 1.2\n";
+
+    /// A project that was changed since it was read is in no text: there are no lines that a message could name.
+    #[test]
+    fn what_is_wrong_with_a_changed_project_is_said_without_lines() {
+        let (file, lines) = ProjectFile::parse(TWICE, "p.toml").unwrap();
+        let document = Document::new(file, Path::new("")).unwrap();
+        let said = document.plan(Path::new("p.toml")).unwrap_err().to_string();
+        assert_eq!(said, "p.toml: the gain of \"acc@1\" is given twice; leave one out");
+        let (file, structure) = (ProjectFile::clone(document.file()), Structure::clone(document.structure()));
+        let said = Plan::new(file, structure, lines, Path::new("p.toml")).unwrap_err().to_string();
+        assert_eq!(said, "p.toml:11: the gain of \"acc@1\" is given twice, first in line 8; leave one out");
+    }
+}

@@ -1,7 +1,7 @@
 //! The one engine that the window, the command line and the tests speak to: a document, commands that change it, undo,
 //! jobs in the background, results that know what they were computed from, and saving.
 
-pub(crate) mod adoption;
+pub mod adoption;
 pub(crate) mod apply;
 pub(crate) mod command;
 pub(crate) mod corrections;

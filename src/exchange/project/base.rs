@@ -28,6 +28,6 @@ pub(super) fn response(table: &Table<'_>) -> Result<Option<BaseResponse>, Projec
 /// Table `[base]`.
 pub(super) fn parse(root: &Table<'_>) -> Result<BaseTable, ProjectError> {
     let Some(table) = root.table("base", "[base]")? else { return Ok(BaseTable::default()) };
-    table.only(&["response"])?;
+    table.only_in::<BaseTable>(&[])?;
     Ok(BaseTable { response: response(&table)?.unwrap_or_default() })
 }

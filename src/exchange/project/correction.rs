@@ -184,7 +184,7 @@ impl CorrectionTable {
 pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<CorrectionTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in structure.tables("correction", "[[structure.correction]]")? {
-        table.only(&["what", "dofs", "elements", "mode", "node", "factor"])?;
+        table.only_in::<CorrectionTable>(&[])?;
         let what = table.word("what", &Corrected::WORDS, Corrected::from_word)?;
         let what = table.need("what", "what = \"mode\"", what)?;
         let dofs: Vec<_> = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();

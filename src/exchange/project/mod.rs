@@ -10,6 +10,7 @@ pub mod file;
 pub(crate) mod frf;
 mod kept;
 mod keys;
+mod keys_of;
 pub mod label;
 pub(crate) mod lines;
 pub mod load;

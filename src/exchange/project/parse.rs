@@ -37,35 +37,8 @@ const TABLES: [&str; 15] = [
     "simulate",
     "report",
 ];
-const BEAM: [&str; 10] = [
-    "kind",
-    "lumped_mass",
-    "correction",
-    "length",
-    "breadth",
-    "depth",
-    "youngs_modulus",
-    "density",
-    "elements",
-    "supports",
-];
-const CHAIN: [&str; 6] = ["kind", "lumped_mass", "correction", "masses", "ground_stiffness", "coupling_stiffness"];
-const MATRICES: [&str; 11] = [
-    "kind",
-    "lumped_mass",
-    "correction",
-    "mass",
-    "stiffness",
-    "nodes",
-    "dofs",
-    "lines",
-    "mass_name",
-    "stiffness_name",
-    "reduce",
-];
-const COMPONENT: [&str; 4] = ["kind", "lumped_mass", "dof", "mass"];
-const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
-const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
+/// Keys of every `[structure]` with matrices; the others are those of its kind.
+const STRUCTURE: [&str; 3] = ["kind", "lumped_mass", "correction"];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -118,7 +91,7 @@ fn header(root: &Table<'_>) -> Read<Header> {
         let problem = Problem::OutOfRange { key: "format".into(), value: format.to_string(), range: "1" };
         return Err(table.error("format", problem));
     }
-    table.only(&["format", "title", "notes"])?;
+    table.only_in::<Header>(&[])?;
     let title = table.text("title")?.unwrap_or_default();
     Ok(Header { format: FORMAT, title, notes: table.text("notes")?.unwrap_or_default() })
 }
@@ -137,7 +110,7 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     };
     let mut lumped_mass = Vec::new();
     for entry in table.tables("lumped_mass", "[[structure.lumped_mass]]")? {
-        entry.only(&["dof", "mass"])?;
+        entry.only_in::<LumpedMass>(&[])?;
         lines.note(&entry);
         let dof = entry.need("dof", "dof = 3", entry.label("dof")?)?;
         lumped_mass.push(LumpedMass { dof, mass: entry.need("mass", "mass = 0.1", entry.number("mass")?)? });
@@ -147,7 +120,7 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
 }
 
 fn beam(table: &Table<'_>) -> Read<BeamParameters> {
-    table.only(&BEAM)?;
+    table.only_in::<BeamParameters>(&STRUCTURE)?;
     let number = |key: &'static str, example| table.need(key, example, table.number(key)?);
     let names = ["clamped-free", "free-free", "pinned-pinned", "clamped-clamped", "clamped-pinned"];
     let order = [
@@ -171,7 +144,7 @@ fn beam(table: &Table<'_>) -> Read<BeamParameters> {
 }
 
 fn chain(table: &Table<'_>) -> Read<ChainParameters> {
-    table.only(&CHAIN)?;
+    table.only_in::<ChainParameters>(&STRUCTURE)?;
     let list = |key: &'static str, example| table.need(key, example, table.numbers(key)?);
     Ok(ChainParameters {
         masses: list("masses", "masses = [1.0, 2.0]")?,
@@ -181,7 +154,7 @@ fn chain(table: &Table<'_>) -> Read<ChainParameters> {
 }
 
 fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
-    table.only(&MATRICES)?;
+    table.only_in::<MatricesTable>(&STRUCTURE)?;
     Ok(MatricesTable {
         mass: table.need("mass", "mass = \"mass.mtx\"", table.text("mass")?)?,
         stiffness: table.need("stiffness", "stiffness = \"stiffness.mtx\"", table.text("stiffness")?)?,
@@ -195,13 +168,13 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
 }
 
 fn points(table: &Table<'_>) -> Read<PointsTable> {
-    table.only(&POINTS)?;
+    table.only_in::<PointsTable>(&STRUCTURE[..2])?;
     let dofs = table.need("dofs", "dofs = [\"1\", \"2\"]", table.labels("dofs")?)?;
     Ok(PointsTable { dofs: dofs.into_iter().map(Label).collect(), positions: table.positions("positions")? })
 }
 
 fn component(table: &Table<'_>) -> Read<ComponentParameters> {
-    table.only(&COMPONENT)?;
+    table.only_in::<ComponentParameters>(&STRUCTURE[..2])?;
     Ok(ComponentParameters {
         dof: table.label("dof")?.unwrap_or_else(|| "1".into()),
         mass: table.number("mass")?.unwrap_or(0.0),
@@ -263,7 +236,7 @@ fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>>
 fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
     let mut sensors = Vec::new();
     for table in root.tables("sensor", "[[sensor]]")? {
-        table.only(&["channel", "delay", "gain"])?;
+        table.only_in::<SensorTable>(&[])?;
         let channel = table.need("channel", "channel = \"acc@7\"", table.text("channel")?)?;
         let (delay, gain) = (super::keys::delay(&table)?, table.number("gain")?);
         if delay.is_none() && gain.is_none() {
@@ -278,7 +251,7 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn analysis(root: &Table<'_>) -> Read<Settings> {
     let mut settings = Settings::default();
     let Some(table) = root.table("analysis", "[analysis]")? else { return Ok(settings) };
-    table.only(&ANALYSIS)?;
+    table.only_in::<Settings>(&[])?;
     let expansions = ["auto", "none", "single-mode", "modes", "dynamic"];
     let expansion = |word: &str| {
         Some(match word {
@@ -318,7 +291,7 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
 fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
-    table.only(&["channels", "samples", "periods", "integrate", "rate_hz", "bits", "filter"])?;
+    table.only_in::<SimulateTable>(&[])?;
     lines.note(&table);
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";

@@ -1,7 +1,9 @@
 //! Reads values from parsed TOML by key, with the line of everything that is wrong.
 
 use super::error::{Problem, ProjectError};
+use super::keys_of::keys_of;
 use crate::math::GREATEST;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -98,6 +100,11 @@ impl<'a> Table<'a> {
                 Err(self.error(key, Problem::UnknownKey { table: self.name.into(), key: key.into(), hint }))
             }
         }
+    }
+
+    /// [`Self::only`] of `more` and the keys that a table of type `T` has.
+    pub(super) fn only_in<T: DeserializeOwned>(&self, more: &[&'static str]) -> Result<(), ProjectError> {
+        self.only(&[more, keys_of::<T>()].concat())
     }
 
     fn get(&self, key: &str) -> Option<&'a Value<'a>> {

@@ -13,29 +13,6 @@ use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
 
-const RUN: [&str; 20] = [
-    "dofs",
-    "base",
-    "base_m_s2",
-    "response",
-    "set",
-    "sets",
-    "sampling_hz",
-    "file",
-    "frequency",
-    "kind",
-    "start_s",
-    "end_s",
-    "session",
-    "level",
-    "use",
-    "force_dof",
-    "force_n",
-    "frequency_shift",
-    "excitation",
-    "exponential_window_s",
-];
-
 impl RunTable {
     /// A steady run of a record of which nothing else is said.
     pub fn of(file: String) -> Self {
@@ -56,7 +33,7 @@ pub(super) fn name(file: &str, set: Option<&String>) -> String {
 pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&RUN)?;
+        table.only_in::<RunTable>(&[])?;
         runs.push(run(&table)?);
         base::half_a_base(&table, runs.last())?;
         lines.note(&table);

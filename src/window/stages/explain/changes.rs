@@ -3,7 +3,6 @@
 use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
-use crate::diagnosis::Diagnosis;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::updating::correction::Correction;
 use crate::display::words;
@@ -11,7 +10,7 @@ use crate::display::words::at;
 use crate::effects::{Effect, Place, Source};
 use crate::identify::Outcome;
 use crate::session::adoption::Adoption;
-use crate::session::{Command, EffectAt, identified};
+use crate::session::{Command, EffectAt, Refusal, identified};
 use crate::window::cache::Cached;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
@@ -31,8 +30,13 @@ impl Change {
         Self { edit, said: format!("{done} Undo takes it back.") }
     }
 
-    fn adopting(adoption: Adoption, done: &str) -> Self {
-        Self::new(Edit::All(adoption.commands), done)
+    /// A change that takes over what `step` does.
+    fn adopting(
+        scene: &Scene<'_>,
+        done: &str,
+        step: impl FnOnce(&mut Adoption) -> Result<(), Refusal>,
+    ) -> Result<Self, String> {
+        Ok(Self::new(Edit::All(scene.commands(step)?), done))
     }
 }
 
@@ -42,19 +46,31 @@ impl Change {
 /// One sentence that says why it cannot be done.
 pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
     let scene = &Scene { document, explained: &derived.explained };
+    let known = || scene.known();
     let found = scene.diagnosis();
     match deed {
         Deed::Add(source) => add(scene, source).map(Some),
         Deed::Exclude(source) => Ok(Some(rule_out(document, source))),
         Deed::Restore(source) => Ok(Some(allow(document, source))),
         Deed::TakeOver => take_over(scene, derived.known_outcome(document)).map(Some),
-        Deed::Correct => found.map(|found| correct(scene, found)).transpose(),
+        Deed::Correct => {
+            let all = |found| Change::adopting(scene, "The model is corrected.", |a| a.corrections(found, &known()));
+            found.map(all).transpose()
+        }
         Deed::CorrectOne(k) => {
-            found.and_then(|found| found.corrections.get(*k)).map(|one| correct_one(scene, one)).transpose()
+            let single = |found: &Correction| {
+                let done = format!("Corrected: {}.", cards::corrected(scene, &found.parameter));
+                Change::adopting(scene, &done, |a| a.correction(found, &known()))
+            };
+            found.and_then(|found| found.corrections.get(*k)).map(single).transpose()
         }
         Deed::CorrectSensor { channel, gain, delay } => correct_sensor(scene, channel, [*gain, *delay]).map(Some),
         Deed::Mend(k) => {
-            found.and_then(|found| found.channel_faults.get(*k)).map(|fault| mend(scene, fault)).transpose()
+            let mended = |fault: &ChannelFault| {
+                let done = format!("Mended: {}.", fault.words());
+                Change::adopting(scene, &done, |a| a.fault(fault, &document.project))
+            };
+            found.and_then(|found| found.channel_faults.get(*k)).map(mended).transpose()
         }
         Deed::Try(_)
         | Deed::Stop
@@ -74,14 +90,12 @@ fn named(document: &Document, source: &Source) -> String {
 
 /// Puts an effect into the model, as it was promised where it was suggested.
 fn add(scene: &Scene<'_>, source: &Source) -> Result<Change, String> {
-    let mut adoption = scene.adoption();
-    let added = match scene.diagnosis() {
+    let commands = scene.commands(|adoption| match scene.diagnosis() {
         Some(diagnosis) => adoption.suggestion(source, diagnosis, &scene.known()),
         None => adoption.effect(source),
-    };
-    added.map_err(|refusal| refusal.to_string())?;
-    let beside = if adoption.commands.len() > 1 { ", with what else the search found and corrected" } else { "" };
-    Ok(Change::adopting(adoption, &format!("Added: {}{beside}.", named(scene.document, source))))
+    })?;
+    let beside = if commands.len() > 1 { ", with what else the search found and corrected" } else { "" };
+    Ok(Change::new(Edit::All(commands), &format!("Added: {}{beside}.", named(scene.document, source))))
 }
 
 /// Rules an effect out at its place; the search for others follows by itself.
@@ -96,38 +110,13 @@ fn allow(document: &Document, source: &Source) -> Change {
     Change::new(Edit::Do(command), &format!("Allowed again: {}.", named(document, source)))
 }
 
-/// What the search corrected is corrected in the project too.
-fn correct(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Result<Change, String> {
-    let mut adoption = scene.adoption();
-    adoption.corrections(diagnosis, &scene.known()).map_err(|refusal| refusal.to_string())?;
-    Ok(Change::adopting(adoption, "The model is corrected."))
-}
-
-/// One correction becomes a number of the project.
-fn correct_one(scene: &Scene<'_>, correction: &Correction) -> Result<Change, String> {
-    let name = cards::corrected(scene, &correction.parameter);
-    let mut adoption = scene.adoption();
-    adoption.correction(correction, &scene.known()).map_err(|refusal| refusal.to_string())?;
-    Ok(Change::adopting(adoption, &format!("Corrected: {name}.")))
-}
-
-/// A channel that was found to read wrongly is mended in its mapping; the search with the channel as it is then follows by itself.
-fn mend(scene: &Scene<'_>, fault: &ChannelFault) -> Result<Change, String> {
-    let mut adoption = scene.adoption();
-    adoption.fault(fault, &scene.document.project).map_err(|refusal| refusal.to_string())?;
-    Ok(Change::adopting(adoption, &format!("Mended: {}.", fault.words())))
-}
-
 /// A channel that reads `gain` too large, or `delay` (s) late, beyond what the project states of it.
 fn correct_sensor(scene: &Scene<'_>, channel: &str, [gain, delay]: [f64; 2]) -> Result<Change, String> {
-    let mut adoption = scene.adoption();
-    for (effect, value, neutral) in [(Effect::Gain, 1.0 + gain, 1.0), (Effect::Delay, delay, 0.0)] {
-        if value != neutral {
-            let error = Source::known(effect, Place::Channel(channel.to_owned()), &[value]);
-            adoption.effect(&error).map_err(|refusal| refusal.to_string())?;
-        }
-    }
-    Ok(Change::adopting(adoption, &format!("Corrected: what {channel} reads.")))
+    let error = |(effect, value)| Source::known(effect, Place::Channel(channel.to_owned()), &[value]);
+    let errors = [(Effect::Gain, 1.0 + gain), (Effect::Delay, delay)].map(error);
+    Change::adopting(scene, &format!("Corrected: what {channel} reads."), |adoption| {
+        errors.iter().try_for_each(|error| adoption.effect(error))
+    })
 }
 
 /// What the identification found becomes known.
@@ -142,7 +131,5 @@ fn take_over(scene: &Scene<'_>, outcome: Option<Cached<Outcome>>) -> Result<Chan
         1 => "Known now: 1 identified source. Undo takes it back.".to_owned(),
         many => format!("Known now: {many} identified sources. Undo takes them back."),
     };
-    let mut adoption = scene.adoption();
-    adoption.identified(&found).map_err(|refusal| refusal.to_string())?;
-    Ok(Change { edit: Edit::All(adoption.commands), said })
+    Ok(Change { edit: Edit::All(scene.commands(|adoption| adoption.identified(&found))?), said })
 }

@@ -3,6 +3,7 @@
 use crate::diagnosis::Diagnosis;
 use crate::effects::{Source, State};
 use crate::session::adoption::Adoption;
+use crate::session::{Command, Refusal};
 use crate::window::document::Document;
 use crate::window::explained::Explained;
 
@@ -25,9 +26,17 @@ impl<'a> Scene<'a> {
         self.explained.known(self.document)
     }
 
-    /// Nothing taken over into the project yet.
-    pub(super) fn adoption(&self) -> Adoption {
-        Adoption::new(self.document.session().document())
+    /// The commands that take over into the project what `step` does.
+    ///
+    /// # Errors
+    /// One sentence that says why it cannot be done.
+    pub(super) fn commands(
+        &self,
+        step: impl FnOnce(&mut Adoption) -> Result<(), Refusal>,
+    ) -> Result<Vec<Command>, String> {
+        let mut adoption = Adoption::new(self.document.session().document());
+        step(&mut adoption).map_err(|refusal| refusal.to_string())?;
+        Ok(adoption.commands)
     }
 }
 
