@@ -300,7 +300,7 @@ fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> a
     Ok(adoption.is_complete())
 }
 
-/// Says what of a diagnosis the project has no words for.
+/// Says what of a diagnosis was not written, and why.
 fn tell_unwritten(adoption: &Adoption, project: &Project, diagnosis: &Diagnosis) {
     if let Some(k) = adoption.impossible {
         let said = corrected(project, &diagnosis.corrections[k]);

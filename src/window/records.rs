@@ -140,9 +140,7 @@ fn unsteady(
 fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> {
     let corrections = plan.corrections();
     let harmonics_of = |(index, key): (usize, &Key)| {
-        let mut alone = plan.clone();
-        alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
-        let read = alone.harmonics().map_err(|e| e.to_string())?;
+        let read = plan.harmonics_of(index).map_err(|e| e.to_string())?;
         let fitted = read.into_iter().map(|fitted| fitted.run(&corrections));
         let runs =
             fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;

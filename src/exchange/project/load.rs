@@ -79,26 +79,28 @@ impl Plan {
 
     /// Reads the runs of every `[[harmonics]]` file, as they were measured.
     pub fn harmonics(&self) -> Result<Vec<Fitted>, ProjectError> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let mut runs = Vec::new();
-        for (i, table) in self.file.harmonics.iter().enumerate() {
-            let wrong = |problem| self.error(self.lines.of("[[harmonics]]", i, ""), problem);
-            let path = folder.join(&table.file);
-            if !path.is_file() {
-                return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
-            }
-            let (set, phase_of) = (table.set.as_deref(), table.phase_of);
-            let read = if table.phases.is_empty() {
-                let (force, response) = (table.force.as_deref(), table.response.as_deref());
-                read_harmonics_as(&path, &self.structure, &SteppedSine { force, response, phase_of })
-            } else {
-                let (channels, phases) = (&self.file.channel, &table.phases);
-                read_amplitudes(&path, AmplitudeTable { channels, phases, set, phase_of }, &self.structure)
-            };
-            let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
-            runs.extend(read.into_iter().map(|run| fitted(table, run)));
+        let files = (0..self.file.harmonics.len()).map(|index| self.harmonics_of(index));
+        Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// The same of `[[harmonics]]` number `index`.
+    pub fn harmonics_of(&self, index: usize) -> Result<Vec<Fitted>, ProjectError> {
+        let table = &self.file.harmonics[index];
+        let wrong = |problem| self.error(self.lines.of("[[harmonics]]", index, ""), problem);
+        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
+        if !path.is_file() {
+            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
         }
-        Ok(runs)
+        let (set, phase_of) = (table.set.as_deref(), table.phase_of);
+        let read = if table.phases.is_empty() {
+            let (force, response) = (table.force.as_deref(), table.response.as_deref());
+            read_harmonics_as(&path, &self.structure, &SteppedSine { force, response, phase_of })
+        } else {
+            let (channels, phases) = (&self.file.channel, &table.phases);
+            read_amplitudes(&path, AmplitudeTable { channels, phases, set, phase_of }, &self.structure)
+        };
+        let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
+        Ok(read.into_iter().map(|run| fitted(table, run)).collect())
     }
 
     /// Reads and fits the record of run number `index`, and corrects it for the known errors of its channels.
