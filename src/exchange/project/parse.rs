@@ -10,12 +10,11 @@ use super::label::Label;
 use super::reader::{Origin, Table};
 use super::runs::{harmonics, runs};
 use super::{base, channel, correction, frf, modes, reduce, report, ruled_out};
-use crate::balance::{Expansion, Weights};
+use crate::effects::Effect;
 use crate::effects::family::Family;
-use crate::effects::{Effect, State};
 use crate::identify::Settings;
 use crate::structure::LumpedMass;
-use crate::structure::beam::{BeamParameters, Supports};
+use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
@@ -122,15 +121,6 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
 fn beam(table: &Table<'_>) -> Read<BeamParameters> {
     table.only_in::<BeamParameters>(&STRUCTURE)?;
     let number = |key: &'static str, example| table.need(key, example, table.number(key)?);
-    let names = ["clamped-free", "free-free", "pinned-pinned", "clamped-clamped", "clamped-pinned"];
-    let order = [
-        Supports::ClampedFree,
-        Supports::FreeFree,
-        Supports::PinnedPinned,
-        Supports::ClampedClamped,
-        Supports::ClampedPinned,
-    ];
-    let supports = table.word("supports", &names, |word| names.iter().position(|&n| n == word).map(|i| order[i]))?;
     let elements = table.count("elements", 1, 10_000, "between 1 and 10000")?;
     Ok(BeamParameters {
         length: number("length", "length = 0.56")?,
@@ -139,7 +129,7 @@ fn beam(table: &Table<'_>) -> Read<BeamParameters> {
         youngs_modulus: number("youngs_modulus", "youngs_modulus = 69e9")?,
         density: number("density", "density = 2700.0")?,
         elements: table.need("elements", "elements = 10", elements)?,
-        supports: table.need("supports", "supports = \"clamped-free\"", supports)?,
+        supports: table.need("supports", "supports = \"clamped-free\"", table.variant("supports")?)?,
     })
 }
 
@@ -197,23 +187,11 @@ fn law(table: &Table<'_>, base: &[&'static str]) -> Read<(Effect, BTreeMap<Strin
     Ok((effect, parameters))
 }
 
-fn state(word: &str) -> Option<State> {
-    Some(match word {
-        "known" => State::Known,
-        "candidate" => State::Candidate,
-        "forced" => State::Forced,
-        "off" => State::Off,
-        "reference" => State::Reference,
-        _ => return None,
-    })
-}
-
 fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
     let mut sources = Vec::new();
     for table in root.tables("source", "[[source]]")? {
         let (law, parameters) = law(&table, &["law", "dofs", "elements", "state"])?;
-        let states = ["known", "candidate", "forced", "off", "reference"];
-        let state = table.need("state", "state = \"candidate\"", table.word("state", &states, state)?)?;
+        let state = table.need("state", "state = \"candidate\"", table.variant("state")?)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         sources.push(SourceTable { law, dofs, elements: elements(&table)?, state, parameters });
         lines.note(&table);
@@ -252,32 +230,12 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
     let mut settings = Settings::default();
     let Some(table) = root.table("analysis", "[analysis]")? else { return Ok(settings) };
     table.only_in::<Settings>(&[])?;
-    let expansions = ["auto", "none", "single-mode", "modes", "dynamic"];
-    let expansion = |word: &str| {
-        Some(match word {
-            "auto" => Expansion::Auto,
-            "none" => Expansion::None,
-            "single-mode" => Expansion::SingleMode,
-            "modes" => Expansion::Modes,
-            "dynamic" => Expansion::Dynamic,
-            _ => return None,
-        })
-    };
-    let weights = |word: &str| {
-        Some(match word {
-            "auto" => Weights::Auto,
-            "none" => Weights::None,
-            "energy" => Weights::Energy,
-            "noise" => Weights::Noise,
-            _ => return None,
-        })
-    };
     let count = |key, least, range, otherwise| Ok(table.count(key, least, MOST, range)?.unwrap_or(otherwise));
     settings.harmonics = count("harmonics", 1, "between 1 and 1000", settings.harmonics)?;
     settings.keep = count("keep", 0, "between 0 and 1000", settings.keep)?;
     settings.max_sources = count("max_sources", 1, "between 1 and 1000", settings.max_sources)?;
-    settings.expansion = table.word("expansion", &expansions, expansion)?.unwrap_or_default();
-    settings.weights = table.word("weights", &["auto", "none", "energy", "noise"], weights)?.unwrap_or_default();
+    settings.expansion = table.variant("expansion")?.unwrap_or_default();
+    settings.weights = table.variant("weights")?.unwrap_or_default();
     if let Some(value) = table.number("stop_angle_deg")? {
         if !(0.0..=90.0).contains(&value) {
             let (key, range) = ("stop_angle_deg".to_owned(), "between 0 and 90 degrees");

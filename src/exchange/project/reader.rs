@@ -4,6 +4,7 @@ use super::error::{Problem, ProjectError};
 use super::keys_of::keys_of;
 use crate::math::GREATEST;
 use serde::de::DeserializeOwned;
+use serde::de::value::{Error as ValueError, StrDeserializer};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -194,6 +195,11 @@ impl<'a> Table<'a> {
         let list = allowed.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
         let problem = Problem::NotAllowed { key: key.into(), value: one_line(&value), allowed: list };
         read(&value).map(Some).ok_or_else(|| self.error(key, problem))
+    }
+
+    /// A word that is a variant of `T`.
+    pub(super) fn variant<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, ProjectError> {
+        self.word(key, keys_of::<T>(), |word| T::deserialize(StrDeserializer::<ValueError>::new(word)).ok())
     }
 
     fn list(&self, key: &str, expected: &'static str) -> Result<Option<Vec<&'a Value<'a>>>, ProjectError> {

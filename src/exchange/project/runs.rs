@@ -8,7 +8,7 @@ use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;
-use crate::measurement::{Kind, Part, Quantity};
+use crate::measurement::{Part, Quantity};
 use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
@@ -43,7 +43,7 @@ pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
 
 fn run(table: &Table<'_>) -> Read<RunTable> {
     let frequency = above_zero(table, "frequency", "above 0 Hz")?;
-    let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
+    let kind = table.variant("kind")?.unwrap_or_default();
     let part = part(table)?;
     let sampling_hz = above_zero(table, "sampling_hz", "above 0 Hz")?;
     let (force_dof, force_n) = force(table)?;
@@ -67,7 +67,7 @@ fn run(table: &Table<'_>) -> Read<RunTable> {
         dofs: dofs(table, "dofs", "`dofs` of the [[run]]")?,
         base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
         base_m_s2: table.number("base_m_s2")?,
-        response: base::response(table)?,
+        response: table.variant("response")?,
     })
 }
 
