@@ -309,7 +309,7 @@ impl Data<'_> {
         let columns: Vec<Source> = self
             .sources
             .iter()
-            .filter(|s| matches!(s.state, State::Candidate | State::Forced) && s.effect.dissipates())
+            .filter(|s| s.state.is_sought() && s.effect.dissipates())
             .filter(|s| s.effect.coefficient().is_some())
             .cloned()
             .collect();

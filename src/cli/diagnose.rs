@@ -8,7 +8,6 @@ use super::run_flags::{self, flags};
 use super::table::{number, table};
 use super::{channel_faults, identified, run_differences};
 use crate::control::Control;
-use crate::diagnosis::channels::Fault;
 use crate::diagnosis::result::{CommonFactor, Diagnosis, Suggestion, TestKind};
 use crate::diagnosis::updating::correction::as_force_gain;
 use crate::display::findings;
@@ -16,11 +15,12 @@ use crate::display::words::title;
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::exchange::project::load;
+use crate::session::adoption::Adoption;
 use crate::session::save::text_after;
 use crate::session::time_limit::answer_within;
 use crate::session::validation::{diagnosed, only_records, problem};
 use crate::session::workers::Threads;
-use crate::session::{Document, Session, corrections, mending, suggestions};
+use crate::session::{Document, Session};
 use crate::structure::{Coupled, Structure};
 use anyhow::Context;
 use serde_json::{Value, json};
@@ -287,57 +287,34 @@ fn error_of(out: &Path, control: &Control) -> Option<f64> {
 /// and everything else stay as they are. Whether all of it was written.
 fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<bool> {
     let context = || file.display().to_string();
-    let mut document = written.document.clone();
+    let mut adoption = Adoption::new(&written.document);
     for source in written.taken {
-        document = added(&document, source).with_context(context)?;
+        adoption.effect(source).with_context(context)?;
     }
     let known = problem(written.project).known();
-    let adopted = corrections::adopt_all(
-        &diagnosis.corrections,
-        diagnosis.verdict,
-        &|index: usize| known.get(index).cloned(),
-        &document,
-    );
-    if let Some(k) = adopted.impossible {
-        let said = corrected(written.project, &diagnosis.corrections[k]);
+    adoption.diagnosis(diagnosis, &known, written.project).with_context(context)?;
+    tell_unwritten(&adoption, written.project, diagnosis);
+    let folder = out.parent().unwrap_or(Path::new(""));
+    let text = text_after(&adoption.document.file_in(folder)?, Some(file))?;
+    crate::exchange::atomic::write_atomically(out, text.as_bytes()).with_context(|| out.display().to_string())?;
+    Ok(adoption.is_complete())
+}
+
+/// Says what of a diagnosis was not written, and why.
+fn tell_unwritten(adoption: &Adoption, project: &Project, diagnosis: &Diagnosis) {
+    if let Some(k) = adoption.impossible {
+        let said = corrected(project, &diagnosis.corrections[k]);
         eprintln!(
             "no correction is written: {} is no error of a model, and they were fitted together",
             said.trim_start()
         );
     }
-    for &k in &adopted.left {
-        let said = corrected(written.project, &diagnosis.corrections[k]);
-        eprintln!("not written, for want of a key for it:{said}");
+    for &k in &adoption.left {
+        eprintln!("not written, for want of a key for it:{}", corrected(project, &diagnosis.corrections[k]));
     }
-    for command in &adopted.commands {
-        document = document.after(command).with_context(context)?;
+    for (k, why) in &adoption.unmended {
+        eprintln!("not written: {}: {why}", diagnosis.channel_faults[*k].words());
     }
-    let best = diagnosis.suggestions.first().map(|best| diagnosis.added_with(&best.added.source));
-    for source in best.into_iter().flatten() {
-        document = added(&document, &source).with_context(context)?;
-    }
-    let mut all = adopted.impossible.is_none() && adopted.left.is_empty();
-    let mendable = diagnosis.channel_faults.iter().filter(|fault| !matches!(fault.fault, Fault::Unreliable(_)));
-    for fault in mendable {
-        let command = mending::command(fault, written.project);
-        match command.and_then(|command| document.after(&command).map_err(|error| error.to_string())) {
-            Ok(mended) => document = mended,
-            Err(why) => {
-                all = false;
-                eprintln!("not written: {}: {why}", fault.words());
-            }
-        }
-    }
-    let folder = out.parent().unwrap_or(Path::new(""));
-    let text = text_after(&document.file_in(folder)?, Some(file))?;
-    crate::exchange::atomic::write_atomically(out, text.as_bytes()).with_context(|| out.display().to_string())?;
-    Ok(all)
-}
-
-/// The document with an effect added.
-fn added(document: &Document, source: &Source) -> anyhow::Result<Document> {
-    let command = suggestions::add(source, document).map_err(anyhow::Error::msg)?;
-    Ok(document.after(&command)?)
 }
 
 #[cfg(test)]

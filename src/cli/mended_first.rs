@@ -7,9 +7,9 @@ use crate::diagnosis::diagnose::faults_of_channels;
 use crate::diagnosis::result::Diagnosis;
 use crate::effects::{Effect, Place, Source, State};
 use crate::exchange::Project;
-use crate::exchange::project::plan;
+use crate::session::adoption::Adoption;
 use crate::session::validation::{ValidationError, agreement, channel_faults, has_records, is_component, problem};
-use crate::session::{Document, Session, mending};
+use crate::session::{Document, Session};
 use anyhow::Context;
 use std::path::Path;
 
@@ -48,16 +48,13 @@ pub(super) fn mended_first(
     if faults.is_empty() {
         return Ok((project, None));
     }
-    let mut document = Session::open(file).with_context(context)?.document().clone();
-    for fault in &faults {
-        let mended = mending::command(fault, &project)
-            .and_then(|command| document.after(&command).map_err(|refusal| refusal.to_string()));
-        // What no mapping can mend is told by the search, with the rest.
-        let Ok(mended) = mended else { return Ok((project, None)) };
-        document = mended;
+    let mut adoption = Adoption::new(Session::open(file).with_context(context)?.document());
+    // What no mapping can mend is told by the search, with the rest.
+    if faults.iter().any(|fault| adoption.fault(fault, &project).is_err()) {
+        return Ok((project, None));
     }
-    let text = document.file().to_toml().with_context(context)?;
-    let mended = plan(&text, file).and_then(|plan| plan.load(control))?;
+    let document = adoption.document;
+    let mended = document.plan(file).and_then(|plan| plan.load(control))?;
     eprintln!("{}: mended first", faults.iter().map(ChannelFault::words).collect::<Vec<_>>().join("; "));
     Ok((mended, Some(MendedFirst { document, unmended: project, faults })))
 }

@@ -86,6 +86,11 @@ impl State {
             Self::Reference => "reference",
         }
     }
+
+    /// Whether its value is to be identified.
+    pub fn is_sought(self) -> bool {
+        matches!(self, Self::Candidate | Self::Forced)
+    }
 }
 
 /// A law at a place.
@@ -135,7 +140,7 @@ impl Source {
             return Err(SourceError::MissingParameter { effect, name: list[k].name, unit: list[k].unit });
         }
         source.check()?;
-        let sought = matches!(state, State::Candidate | State::Forced);
+        let sought = state.is_sought();
         Ok(if sought { source.with_coefficient(1.0) } else { source })
     }
 

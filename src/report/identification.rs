@@ -43,7 +43,7 @@ pub(super) fn chapters(page: &mut Page, content: &Content<'_>, control: &Control
 
 /// Whether a project states what dissipates and leaves none of it to be identified.
 fn states_all(p: &Project) -> bool {
-    let open = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
+    let open = |s: &Source| s.state.is_sought();
     p.sources.iter().any(|s| s.state == State::Known) && !p.sources.iter().any(open)
 }
 

@@ -3,9 +3,10 @@
 //! In JSON a command is an object with one key, such as `{"add_source": {"law": "viscous", "dofs": ["3"]}}`.
 
 use crate::balance::{Expansion, Weights};
-use crate::effects::{Effect, Family, State};
+use crate::effects::{Effect, Family, Place, Source, State};
 use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::ReportTable;
+use crate::structure::Structure;
 use crate::structure::beam::Supports;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -52,6 +53,23 @@ pub struct SourceAt {
     pub state: Option<State>,
 }
 
+impl SourceAt {
+    /// The source where it acts; an error of a channel has no DOFs.
+    pub fn of(source: &Source, structure: &Structure) -> Self {
+        let (dofs, elements) = labels(&source.place, structure);
+        Self { law: source.effect, dofs, elements, state: Some(source.state) }
+    }
+}
+
+/// Labels of the DOFs of a place, or its range of elements counted from 1.
+fn labels(place: &Place, structure: &Structure) -> (Vec<String>, Option<[i64; 2]>) {
+    match place {
+        Place::Dofs(dofs) => (dofs.iter().map(|&d| structure.label(d).to_owned()).collect(), None),
+        Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
+        Place::Channel(_) => (Vec::new(), None),
+    }
+}
+
 /// An effect at a place of the structure or in a channel.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -67,6 +85,18 @@ pub struct EffectAt {
     /// Channel of an error of the measuring chain, such as `acc@7`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
+}
+
+impl EffectAt {
+    /// The effect of a source where it acts.
+    pub fn of(source: &Source, structure: &Structure) -> Self {
+        let (dofs, elements) = labels(&source.place, structure);
+        let channel = match &source.place {
+            Place::Channel(channel) => Some(channel.clone()),
+            Place::Dofs(_) | Place::Whole(_) => None,
+        };
+        Self { law: source.effect, dofs, elements, channel }
+    }
 }
 
 /// What is wrong with channels, and how the records name theirs.

@@ -1,13 +1,11 @@
-//! What becomes of the corrections of the model that a search found: other numbers of the structure and of its known sources.
-//! The command line and the window correct by the same commands.
+//! The corrections of the model that a search found as commands: other numbers of the structure and of its known sources.
 
 use super::command::{Command, SourceAt};
 use super::document::Document;
-use super::suggestions::labels;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Source, State};
+use crate::effects::Source;
 use crate::exchange::project::correction::{CorrectionTable, FACTORS};
 use crate::exchange::project::file::{Shape, StructureTable};
 use crate::structure::{Part, Structure};
@@ -32,7 +30,7 @@ const MOST: f64 = 7.0;
 pub(crate) fn adopt_all(
     corrections: &[Correction],
     verdict: Verdict,
-    known: &dyn Fn(usize) -> Option<Source>,
+    known: &[Source],
     document: &Document,
 ) -> Adopted {
     let unexplained = verdict == Verdict::Unexplained;
@@ -54,12 +52,8 @@ fn is_possible(correction: &Correction, unexplained: bool) -> bool {
     FACTORS.contains(&factor) && !(unexplained && bounded && factor.ln().abs() > MOST.ln())
 }
 
-/// Multiplies what the project states by the factors of `corrections`; `known` gives the known source of an index.
-pub(crate) fn adopt(
-    corrections: &[Correction],
-    known: &dyn Fn(usize) -> Option<Source>,
-    document: &Document,
-) -> Adopted {
+/// Multiplies what the project states by the factors of `corrections`; `known` are the sources that act in the model.
+pub(crate) fn adopt(corrections: &[Correction], known: &[Source], document: &Document) -> Adopted {
     let (structure, table) = (document.structure(), &document.file().structure);
     let mut adopted = Adopted::default();
     let mut numbers = Numbers { table, values: BTreeMap::new() };
@@ -75,8 +69,8 @@ pub(crate) fn adopt(
                     tables.push(CorrectionTable::of(structure, *part, factor));
                 }
             }
-            UpdatingParameter::Known(index) => match known(*index) {
-                Some(source) => adopted.commands.push(resized(&source, factor, structure)),
+            UpdatingParameter::Known(index) => match known.get(*index) {
+                Some(source) => adopted.commands.push(resized(source, factor, structure)),
                 None => adopted.left.push(k),
             },
             UpdatingParameter::Gain(_)
@@ -174,15 +168,13 @@ fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
 
 /// A known source of another size: its coefficient, or stiffness and force together.
 fn resized(source: &Source, factor: f64, structure: &Structure) -> Command {
-    let (dofs, elements) = labels(&source.place, structure);
-    let effect: Effect = source.effect;
+    let effect = source.effect;
     let parameters = effect
         .scaled()
         .iter()
         .map(|&k| (effect.parameters()[k].name.to_owned(), source.parameters[k] * factor))
         .collect();
-    let at = SourceAt { law: effect, dofs, elements, state: Some(State::Known) };
-    Command::SetSourceParameters { source: at, parameters }
+    Command::SetSourceParameters { source: SourceAt::of(source, structure), parameters }
 }
 
 #[cfg(test)]
@@ -190,6 +182,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
     use super::*;
+    use crate::effects::State;
     use crate::session::Session;
 
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
@@ -227,9 +220,9 @@ mod tests {
             correction(UpdatingParameter::Structure(Part::Stiffness), 1.1),
             correction(UpdatingParameter::Structure(Part::Mass), 8.0),
         ];
-        let adopted = adopt_all(&corrections, Verdict::Unexplained, &|_| None, &d);
+        let adopted = adopt_all(&corrections, Verdict::Unexplained, &[], &d);
         assert!(adopted.commands.is_empty() && adopted.impossible == Some(1));
-        assert_eq!(adopt_all(&corrections, Verdict::Detuned, &|_| None, &d).commands.len(), 2);
+        assert_eq!(adopt_all(&corrections, Verdict::Detuned, &[], &d).commands.len(), 2);
     }
 
     #[test]
@@ -245,7 +238,7 @@ mod tests {
             correction(UpdatingParameter::Known(0), 1.5),
             correction(UpdatingParameter::Gain("acc@1".to_owned()), 1.01),
         ];
-        let known = |k: usize| d.sources().iter().filter(|s| s.state == State::Known).nth(k).cloned();
+        let known: Vec<Source> = d.sources().iter().filter(|s| s.state == State::Known).cloned().collect();
         let adopted = adopt(&list, &known, &d);
         assert_eq!(adopted.left, [4], "a gain is no number of the model");
         let d = adopted.commands.iter().fold(d, |d, command| d.after(command).unwrap());

@@ -2,11 +2,13 @@
 
 use super::refusal::Refusal;
 use super::save::SaveError;
-use super::{sources, structure};
 use crate::classical::reference_shapes::ReferenceShape;
 use crate::effects::Source;
-use crate::exchange::project::Problem;
-use crate::exchange::project::file::ProjectFile;
+use crate::exchange::project::lines::At;
+use crate::exchange::project::reference_shapes::reference_shapes;
+use crate::exchange::project::sources::sources;
+use crate::exchange::project::structure::structure;
+use crate::exchange::project::{Lines, Plan, ProjectError, ProjectFile};
 use crate::structure::Structure;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -69,15 +71,10 @@ impl PartialEq for Document {
 
 impl Document {
     /// Checks the file and builds what follows from it; `folder` is where the project's files are.
-    pub fn new(mut file: ProjectFile, folder: &Path) -> Result<Self, Refusal> {
-        let structure = Arc::new(structure::build(&file.structure, folder)?);
-        let sources = Arc::new(sources::expand(&file, &structure)?);
-        // What was said of a place goes with the place.
-        file.ruled_out.retain(|table| table.source(&structure).is_ok());
-        let ruled_out = Arc::new(ruled_out(&file, &structure));
-        let reference_shapes = reference_shapes(&file, &structure, folder)?;
-        let (file, folder) = (Arc::new(file), folder.to_owned());
-        Ok(Self { file, structure, sources, ruled_out, reference_shapes, folder })
+    pub fn new(file: ProjectFile, folder: &Path) -> Result<Self, Refusal> {
+        let structure = structure(&file.structure, folder, &[], At::NOWHERE)?;
+        let shapes = reference_shapes(&file, &structure, folder, At::NOWHERE)?;
+        Self::on(Arc::new(structure), Arc::new(shapes), file, folder)
     }
 
     /// The document with another file; the structure is rebuilt only if it changed.
@@ -85,14 +82,34 @@ impl Document {
         if file.structure != self.file.structure {
             return Self::new(file, &self.folder);
         }
-        let sources = Arc::new(sources::expand(&file, &self.structure)?);
-        let ruled_out = Arc::new(ruled_out(&file, &self.structure));
-        let mut changed = Self { sources, ruled_out, ..self.clone() };
-        if file.modes != self.file.modes || file.frf != self.file.frf {
-            changed.reference_shapes = reference_shapes(&file, &self.structure, &self.folder)?;
-        }
-        changed.file = Arc::new(file);
-        Ok(changed)
+        let shapes = if file.modes == self.file.modes && file.frf == self.file.frf {
+            self.reference_shapes.clone()
+        } else {
+            Arc::new(reference_shapes(&file, &self.structure, &self.folder, At::NOWHERE)?)
+        };
+        Self::on(self.structure.clone(), shapes, file, &self.folder)
+    }
+
+    fn on(
+        structure: Arc<Structure>,
+        reference_shapes: Arc<Vec<ReferenceShape>>,
+        mut file: ProjectFile,
+        folder: &Path,
+    ) -> Result<Self, Refusal> {
+        let sources = Arc::new(sources(&file, &structure, At::NOWHERE)?);
+        // What was said of a place goes with the place.
+        file.ruled_out.retain(|table| table.source(&structure).is_ok());
+        let ruled_out = file.ruled_out.iter().filter_map(|table| table.source(&structure).ok()).collect();
+        let (file, ruled_out, folder) = (Arc::new(file), Arc::new(ruled_out), folder.to_owned());
+        Ok(Self { file, structure, sources, ruled_out, reference_shapes, folder })
+    }
+
+    /// What the loader of projects plans for the file as it is now, on the structure that is built; `path` is what messages call it.
+    ///
+    /// # Errors
+    /// [`ProjectError`] for what does not hold of its runs and sensors.
+    pub(crate) fn plan(&self, path: &Path) -> Result<Plan, ProjectError> {
+        Plan::new(ProjectFile::clone(&self.file), Structure::clone(&self.structure), Lines::default(), path)
     }
 
     /// The project file as data.
@@ -138,15 +155,36 @@ impl Document {
     }
 }
 
-fn reference_shapes(
-    file: &ProjectFile,
-    structure: &Structure,
-    folder: &Path,
-) -> Result<Arc<Vec<ReferenceShape>>, Refusal> {
-    let read = file.reference_shapes(structure, folder);
-    Ok(Arc::new(read.map_err(|(_, error)| Problem::Frf(Box::new(error)))?))
+impl From<Plan> for Document {
+    fn from(plan: Plan) -> Self {
+        Self {
+            folder: plan.path.parent().unwrap_or(Path::new("")).to_owned(),
+            file: Arc::new(plan.file),
+            structure: Arc::new(plan.structure),
+            sources: Arc::new(plan.sources),
+            ruled_out: Arc::new(plan.ruled_out),
+            reference_shapes: Arc::new(plan.reference_shapes),
+        }
+    }
 }
 
-fn ruled_out(file: &ProjectFile, structure: &Structure) -> Vec<Source> {
-    file.ruled_out.iter().filter_map(|table| table.source(structure).ok()).collect()
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    const TWICE: &str = "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = [1.0]\nground_stiffness = [1.0]\n\
+        coupling_stiffness = []\n[[sensor]]\nchannel = \"acc@1\"\ngain = 1.1\n[[sensor]]\nchannel = \"acc@1\"\ngain = 1.2\n";
+
+    /// A project that was changed since it was read is in no text: there are no lines that a message could name.
+    #[test]
+    fn what_is_wrong_with_a_changed_project_is_said_without_lines() {
+        let (file, lines) = ProjectFile::parse(TWICE, "p.toml").unwrap();
+        let document = Document::new(file, Path::new("")).unwrap();
+        let said = document.plan(Path::new("p.toml")).unwrap_err().to_string();
+        assert_eq!(said, "p.toml: the gain of \"acc@1\" is given twice; leave one out");
+        let (file, structure) = (ProjectFile::clone(document.file()), Structure::clone(document.structure()));
+        let said = Plan::new(file, structure, lines, Path::new("p.toml")).unwrap_err().to_string();
+        assert_eq!(said, "p.toml:11: the gain of \"acc@1\" is given twice, first in line 8; leave one out");
+    }
 }

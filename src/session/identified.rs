@@ -11,12 +11,10 @@ use crate::session::validation::problem;
 /// Makes the sources that `outcome` found known in `project` and the others that were sought inactive; a source that is
 /// known there already gets the coefficient on top of its own. Gives what was taken over.
 pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
-    let found = outcome.sources.iter().filter(|e| e.coefficient > 0.0);
-    let taken: Vec<Source> = found
-        .filter_map(|e| project.sources.get(e.source).filter(|s| is_sought(s)).map(|s| (s, e.coefficient)))
-        .map(|(s, coefficient)| Source { state: State::Known, ..s.with_coefficient(coefficient) })
+    let taken: Vec<Source> = found(&project.sources, outcome)
+        .map(|(k, coefficient)| Source { state: State::Known, ..project.sources[k].with_coefficient(coefficient) })
         .collect();
-    project.sources.iter_mut().filter(|s| is_sought(s)).for_each(|s| s.state = State::Off);
+    project.sources.iter_mut().filter(|s| s.state.is_sought()).for_each(|s| s.state = State::Off);
     for source in &taken {
         let there = project.sources.iter_mut().find(|s| s.state == State::Known && s.is_same(source));
         match (there, source.effect.coefficient()) {
@@ -27,17 +25,19 @@ pub fn take_over(project: &mut Project, outcome: &Outcome) -> Vec<Source> {
     taken
 }
 
+/// The sources that were sought and found, by their place in the list, with their coefficients.
+pub(crate) fn found<'a>(sources: &'a [Source], outcome: &'a Outcome) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let sought = |k: usize| sources.get(k).is_some_and(|source| source.state.is_sought());
+    let found = outcome.sources.iter().filter(move |e| e.coefficient > 0.0 && sought(e.source));
+    found.map(|e| (e.source, e.coefficient))
+}
+
 /// Whether a project states no damping at all, asks for it, and has runs within the width of a resonance: of what else its model
 /// lacks nothing can be said before that is identified.
 pub fn lacks_damping(project: &Project, control: &Control) -> bool {
     let damps = |source: &Source| source.effect.dissipates();
-    let sought = project.sources.iter().any(|source| is_sought(source) && damps(source));
+    let sought = project.sources.iter().any(|source| source.state.is_sought() && damps(source));
     let problem = problem(project);
     let known = problem.known().iter().any(damps);
     !known && sought && project.structure.matrices().is_some() && lacks_width(&problem, control).unwrap_or(false)
-}
-
-/// Whether a source is to be found.
-pub fn is_sought(source: &Source) -> bool {
-    matches!(source.state, State::Candidate | State::Forced)
 }

@@ -1,12 +1,12 @@
-//! What becomes of a fault of a measuring channel: its mapping is mended. The command line and the window mend by the same
-//! command.
+//! What becomes of a fault of a measuring channel: its mapping is mended.
 
 mod responses;
 
 use super::command::{Command, Mending};
 use super::refusal::Refusal;
-use super::sensors::delay_further;
+use super::sensors::{further, set_sensor};
 use crate::diagnosis::channels::{ChannelFault, Fault};
+use crate::effects::{Effect, Place, Source};
 use crate::exchange::Project;
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::file::ProjectFile;
@@ -20,17 +20,23 @@ const OF_SOME: &str = " ?";
 /// The command that mends a fault.
 ///
 /// # Errors
-/// One sentence: the fault is none that a mapping can mend, or the records do not have one mapping.
-pub(crate) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, String> {
+/// [`Refusal::NotMended`]: the fault is none that a mapping can mend.
+pub(super) fn command(fault: &ChannelFault, project: &Project) -> Result<Command, Refusal> {
     let factor = match fault.fault {
         Fault::Factor(factor) | Fault::Common(factor) => Some(factor),
         Fault::Exchanged | Fault::Elsewhere(_) | Fault::Late(_) => None,
-        Fault::Unreliable(_) => return Err("a channel that scatters has no mapping that mends it".to_owned()),
+        Fault::Unreliable(_) => {
+            return Err(not_mended(&fault.channels, "a channel that scatters has no mapping that mends it"));
+        }
     };
     let elsewhere = matches!(fault.fault, Fault::Elsewhere(_));
     let late = if let Fault::Late(delay) = fault.fault { Some(delay) } else { None };
     let (channels, driven) = (fault.channels.clone(), driven(project));
     Ok(Command::MendChannels(Mending { channels, factor, late, elsewhere, driven, records: of_records(project) }))
+}
+
+fn not_mended(channels: &[String], reason: &str) -> Refusal {
+    Refusal::NotMended { channel: channels.join(" and "), reason: reason.to_owned() }
 }
 
 /// Labels of the DOFs where the forces of frequency responses act.
@@ -63,10 +69,11 @@ fn of_records(project: &Project) -> Vec<String> {
 /// `[frf.dofs]`; of a channel that is late its `[[sensor]]`.
 pub(super) fn mend(file: &mut ProjectFile, mending: &Mending, on: &Structure) -> Result<(), Refusal> {
     if let Some(more) = mending.late {
-        return delay_further(file, &mending.channels[0], more, on);
+        let channel = &mending.channels[0];
+        let late = Source::known(Effect::Delay, Place::Channel(channel.clone()), &[more]);
+        return set_sensor(file, channel, further(file, channel, &late), on);
     }
-    let cannot =
-        |reason: &str| Refusal::NotMended { channel: mending.channels.join(" and "), reason: reason.to_owned() };
+    let cannot = |reason: &str| not_mended(&mending.channels, reason);
     if !file.harmonics.is_empty() {
         return Err(cannot("its harmonics were fitted elsewhere; mend their file"));
     }

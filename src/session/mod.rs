@@ -1,6 +1,7 @@
 //! The one engine that the window, the command line and the tests speak to: a document, commands that change it, undo,
 //! jobs in the background, results that know what they were computed from, and saving.
 
+pub mod adoption;
 pub(crate) mod apply;
 pub(crate) mod command;
 pub(crate) mod corrections;
@@ -8,7 +9,7 @@ pub(crate) mod document;
 pub mod history;
 pub mod identified;
 pub mod jobs;
-pub(crate) mod mending;
+mod mending;
 pub mod recent;
 mod refusal;
 pub mod save;
@@ -19,7 +20,6 @@ pub(crate) mod session;
 mod sources;
 pub mod states;
 mod structure;
-pub mod suggestions;
 pub mod time_limit;
 pub mod validation;
 pub mod workers;

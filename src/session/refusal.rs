@@ -9,8 +9,6 @@ use crate::structure::StructureError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Refusal {
-    #[error("`{law}` is already drawn between the same DOFs ({place}); change that one instead")]
-    DrawnTwice { law: Effect, place: String },
     #[error("there is no `{law}` at {place}; choose a source of the pattern")]
     NoSuchSource { law: Effect, place: String },
     #[error("the family `{family}` of `{law}` is already drawn")]
@@ -23,8 +21,6 @@ pub enum Refusal {
     NotWhole { name: String, value: f64 },
     #[error("only a beam has supports; this structure is a {kind}")]
     NoSupports { kind: &'static str },
-    #[error("a structure of points has no mass matrix to add a lumped mass to")]
-    MassOnPoints,
     #[error("there is no lumped mass at DOF {dof}")]
     NoLumpedMass { dof: String },
     #[error("the run {file} is not in the project; choose one of its runs")]
@@ -35,8 +31,6 @@ pub enum Refusal {
     NoFile,
     #[error("`{name}` must be {range}, not {value}")]
     OutOfRange { name: &'static str, range: &'static str, value: f64 },
-    #[error("`{channel}` is not a channel of this structure; write force@DOF, acc@DOF, vel@DOF or disp@DOF")]
-    NoSuchChannel { channel: String },
     #[error("`{law}` is ruled out there already")]
     RuledOutTwice { law: Effect },
     #[error("`{law}` is not ruled out there")]
@@ -45,18 +39,26 @@ pub enum Refusal {
     NoSuchPlace { law: Effect, reason: String },
     #[error("{channel} cannot be mended: {reason}")]
     NotMended { channel: String, reason: String },
+    #[error(
+        "{law} is known at this place already, and two of it with other parameters are not one; change its values there"
+    )]
+    NotOne { law: &'static str },
+    #[error("{law} has no coefficient to be taken over")]
+    NoCoefficient { law: &'static str },
     #[error("an empty text cannot be the name of a file")]
     EmptyName,
-    #[error("the project cannot be written as TOML: {reason}")]
-    NotWritable { reason: String },
     #[error(transparent)]
     Structure(#[from] StructureError),
-    #[error(transparent)]
-    Source(#[from] SourceError),
     #[error(transparent)]
     Pattern(Box<Problem>),
     #[error(transparent)]
     Project(#[from] ProjectError),
+}
+
+impl From<SourceError> for Refusal {
+    fn from(error: SourceError) -> Self {
+        Problem::Source(Box::new(error)).into()
+    }
 }
 
 impl From<Problem> for Refusal {

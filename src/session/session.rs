@@ -37,8 +37,7 @@ impl Session {
     /// # Errors
     /// What the reader of projects says, or what makes the document invalid.
     pub fn open(path: &Path) -> Result<Self, Refusal> {
-        let plan = open(path)?;
-        let document = Document::new(plan.file, parent(path))?;
+        let document = Document::from(open(path)?);
         let saved = Some(document.file().clone());
         Ok(Self { path: Some(path.to_owned()), saved, disk: save::on_disk(path), ..Self::new(document) })
     }

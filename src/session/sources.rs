@@ -2,31 +2,20 @@
 
 use super::command::SourceAt;
 use super::refusal::Refusal;
-use crate::effects::{Place, Source};
+use crate::effects::Source;
 use crate::exchange::project::file::{ProjectFile, SourceTable};
 use crate::exchange::project::label::Label;
 use crate::exchange::project::ruled_out::RuledOutTable;
-use crate::exchange::project::sources::{PatternError, at_place, expanded, is_sought, members, single};
+use crate::exchange::project::sources::{at_place, members, place_words, single};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
-
-/// All sources: those drawn one by one, then the members of the families that are not drawn already.
-pub(super) fn expand(file: &ProjectFile, structure: &Structure) -> Result<Vec<Source>, Refusal> {
-    expanded(file, structure).map_err(|error| match error {
-        PatternError::Source { problem, .. } | PatternError::Family { problem, .. } => problem.into(),
-        PatternError::Twice { tables: [_, second] } => {
-            let table = &file.source[second];
-            Refusal::DrawnTwice { law: table.law, place: place_words(&table.dofs, table.elements) }
-        }
-    })
-}
 
 /// Index of a source in the file. A member of a family is not there: its family is first written out one by one.
 pub(super) fn find(file: &mut ProjectFile, at: &SourceAt, structure: &Structure) -> Result<usize, Refusal> {
     if let Some(index) = drawn(file, at, structure)? {
         return Ok(index);
     }
-    let absent = || Refusal::NoSuchSource { law: at.law, place: words(&at.dofs, at.elements) };
+    let absent = || Refusal::NoSuchSource { law: at.law, place: place_words(&labels(&at.dofs), at.elements) };
     let sought = at_place(at.law, &labels(&at.dofs), at.elements, structure)?;
     let mut family = None;
     for (index, table) in file.candidates.iter().enumerate() {
@@ -55,7 +44,7 @@ fn write_out(file: &mut ProjectFile, family: usize, structure: &Structure) -> Re
     let drawn: Vec<Source> = file.source.iter().map(|table| single(table, structure)).collect::<Result<_, _>>()?;
     let table = file.candidates.remove(family);
     for member in members(&table, structure)? {
-        if !drawn.iter().any(|other| is_sought(other.state) && other.is_same(&member)) {
+        if !drawn.iter().any(|other| other.state.is_sought() && other.is_same(&member)) {
             file.source.push(written(&member, &table.parameters, structure));
         }
     }
@@ -63,15 +52,8 @@ fn write_out(file: &mut ProjectFile, family: usize, structure: &Structure) -> Re
 }
 
 fn written(source: &Source, parameters: &BTreeMap<String, f64>, structure: &Structure) -> SourceTable {
-    let dofs = match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&dof| Label(structure.label(dof).to_owned())).collect(),
-        Place::Whole(_) | Place::Channel(_) => Vec::new(),
-    };
-    let elements = match source.place {
-        Place::Whole(Some([first, last])) => Some([first as i64 + 1, last as i64 + 1]),
-        _ => None,
-    };
-    SourceTable { law: source.effect, dofs, elements, state: source.state, parameters: parameters.clone() }
+    let SourceAt { law, dofs, elements, .. } = SourceAt::of(source, structure);
+    SourceTable { law, dofs: labels(&dofs), elements, state: source.state, parameters: parameters.clone() }
 }
 
 /// The effect that is ruled out, or why it cannot act there.
@@ -82,18 +64,4 @@ pub(super) fn ruled_out(table: &RuledOutTable, structure: &Structure) -> Result<
 /// Labels as the file has them.
 pub(super) fn labels(dofs: &[String]) -> Vec<Label> {
     dofs.iter().cloned().map(Label).collect()
-}
-
-fn place_words(dofs: &[Label], elements: Option<[i64; 2]>) -> String {
-    let dofs: Vec<String> = dofs.iter().map(|label| label.0.clone()).collect();
-    words(&dofs, elements)
-}
-
-fn words(dofs: &[String], elements: Option<[i64; 2]>) -> String {
-    match (dofs, elements) {
-        ([], Some([first, last])) => format!("elements {first} to {last}"),
-        ([], None) => "the whole structure".into(),
-        ([one], _) => format!("DOF {one} to the ground"),
-        (many, _) => format!("DOFs {}", many.join(", ")),
-    }
 }

@@ -1,56 +1,7 @@
-//! The structure of a project: built from its parameters, and its numbers set by name.
+//! The numbers of the structure of a project, set by name.
 
 use super::refusal::Refusal;
-use crate::exchange::project::file::{
-    BaseTable, FORMAT, Header, ProjectFile, ReportTable, Shape, SimulateTable, StructureTable,
-};
-use crate::exchange::project::plan;
-use crate::identify::Settings;
-use crate::structure::Structure;
-use crate::structure::points::PointParameters;
-use std::path::Path;
-
-/// Builds the structure; files are relative to `folder`.
-pub(super) fn build(table: &StructureTable, folder: &Path) -> Result<Structure, Refusal> {
-    if !table.correction.is_empty() {
-        return from_files(table, folder);
-    }
-    let lumped = &table.lumped_mass;
-    match &table.shape {
-        Shape::Beam(beam) => Ok(beam.build(lumped)?),
-        Shape::Chain(chain) => Ok(chain.build(lumped)?),
-        Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => Err(Refusal::MassOnPoints),
-        Shape::Points(points) => {
-            let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
-            Ok(PointParameters { dofs, positions: points.positions.clone() }.build()?)
-        }
-        Shape::Component(parameters) => Ok(parameters.build()?),
-        Shape::Matrices(_) => from_files(table, folder),
-    }
-}
-
-/// Matrices and corrections are read by the reader of projects, from a project that holds nothing else.
-fn from_files(table: &StructureTable, folder: &Path) -> Result<Structure, Refusal> {
-    let file = ProjectFile {
-        project: Header { format: FORMAT, title: String::new(), notes: String::new() },
-        structure: table.clone(),
-        source: Vec::new(),
-        candidates: Vec::new(),
-        sensor: Vec::new(),
-        ruled_out: Vec::new(),
-        channel: Vec::new(),
-        run: Vec::new(),
-        harmonics: Vec::new(),
-        frf: Vec::new(),
-        modes: Vec::new(),
-        base: BaseTable::default(),
-        analysis: Settings::default(),
-        simulate: SimulateTable::default(),
-        report: ReportTable::default(),
-    };
-    let text = file.to_toml().map_err(|error| Refusal::NotWritable { reason: error.to_string() })?;
-    Ok(plan(&text, &folder.join("project.toml"))?.structure)
-}
+use crate::exchange::project::file::Shape;
 
 /// Word for the kind of structure.
 pub(super) fn kind(shape: &Shape) -> &'static str {

@@ -93,13 +93,7 @@ impl Shown<'_> {
     }
 
     fn at(&self, i: usize) -> Result<SourceAt, String> {
-        let source = self.source(i)?;
-        let (dofs, elements) = match &source.place {
-            Place::Dofs(dofs) => (self.labels(dofs)?, None),
-            Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
-            Place::Channel(_) => return Err("an error of a channel is not a source".to_owned()),
-        };
-        Ok(SourceAt { law: source.effect, dofs, elements, state: Some(source.state) })
+        Ok(SourceAt::of(self.source(i)?, self.structure))
     }
 
     fn labels(&self, dofs: &[usize]) -> Result<Vec<String>, String> {
@@ -141,7 +135,7 @@ mod tests {
     use crate::control::Control;
     use crate::effects::{Effect, Place, Source};
     use crate::exchange::project::load;
-    use crate::session::suggestions;
+    use crate::session::adoption::Adoption;
     use crate::window::document::{Applied, Document};
     use crate::window::edits::Edit;
 
@@ -162,8 +156,9 @@ mod tests {
 
     /// Adds an effect, and reads what that needs.
     fn add(d: &mut Document, source: &Source) -> Result<(), String> {
-        let command = suggestions::add(source, d.session().document())?;
-        match d.apply(&Edit::Do(command))? {
+        let mut adoption = Adoption::new(d.session().document());
+        adoption.effect(source).map_err(|refusal| refusal.to_string())?;
+        match d.apply(&Edit::All(adoption.commands))? {
             Applied::Done(_) => Ok(()),
             Applied::Waits(waiting) => d.finish(waiting.read(&Control::unattended())?),
         }

@@ -1,15 +1,14 @@
 //! Records that were read and fitted, kept for every state of the document that needs them: undo reads no file again.
 
 use crate::control::Control;
-use crate::exchange::project::file::{ProjectFile, RunTable};
+use crate::exchange::project::Plan;
+use crate::exchange::project::file::RunTable;
 use crate::exchange::project::frf::FrfTable;
-use crate::exchange::project::{Plan, plan};
 use crate::measurement::unsettled::take_unsettled;
 use crate::measurement::{Run, TransientRun};
 use crate::session::Document as State;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::PathBuf;
 
 /// What the fit of a record depends on.
 type Key = (String, u64);
@@ -24,8 +23,7 @@ pub(crate) struct Records {
 /// Records that a change needs and that are still to be read: long work.
 #[derive(Debug, Clone)]
 pub(crate) struct Missing {
-    file: ProjectFile,
-    folder: PathBuf,
+    state: State,
     runs: Vec<(usize, Key)>,
     unsteady: Vec<(usize, Key)>,
     harmonics: Vec<Key>,
@@ -84,9 +82,8 @@ impl Records {
         let harmonics = if harmonics.iter().all(|key| self.kept.contains_key(key)) { Vec::new() } else { harmonics };
         let responses = file.frf.iter().enumerate().map(|(k, table)| (k, frf_key(table, on)));
         let responses: Vec<(usize, Key)> = responses.filter(|(_, key)| !self.kept.contains_key(key)).collect();
-        let (file, folder) = (ProjectFile::clone(file), state.folder().to_owned());
         let any = !runs.is_empty() || !unsteady.is_empty() || !harmonics.is_empty() || !responses.is_empty();
-        any.then_some(Missing { file, folder, runs, unsteady, harmonics, responses })
+        any.then(|| Missing { state: state.clone(), runs, unsteady, harmonics, responses })
     }
 
     /// Keeps what was read.
@@ -102,8 +99,7 @@ impl Missing {
     /// # Errors
     /// One line: file, line, what is wrong and how to mend it; or cancelled.
     pub(crate) fn read(self, control: &Control) -> Result<Fitted, String> {
-        let text = self.file.to_toml().map_err(|e| e.to_string())?;
-        let plan = plan(&text, &self.folder.join("project.toml")).map_err(|e| e.to_string())?;
+        let plan = self.state.plan(&self.state.folder().join("project.toml")).map_err(|e| e.to_string())?;
         let mut fitted = Vec::new();
         let count = self.runs.len() + self.unsteady.len() + self.harmonics.len();
         let unsteady = unsteady(&plan, &self.unsteady, (self.runs.len(), count), control)?;
@@ -144,9 +140,7 @@ fn unsteady(
 fn harmonics(plan: &Plan, keys: &[Key]) -> Result<Vec<(Key, Vec<Run>)>, String> {
     let corrections = plan.corrections();
     let harmonics_of = |(index, key): (usize, &Key)| {
-        let mut alone = plan.clone();
-        alone.file.harmonics = vec![plan.file.harmonics[index].clone()];
-        let read = alone.harmonics().map_err(|e| e.to_string())?;
+        let read = plan.harmonics_of(index).map_err(|e| e.to_string())?;
         let fitted = read.into_iter().map(|fitted| fitted.run(&corrections));
         let runs =
             fitted.map(|run| plan.on_its_base(None, run).map_err(|e| e.to_string())).collect::<Result<_, _>>()?;

@@ -6,7 +6,6 @@ use super::stages;
 use super::stages::identified::{NO_CANDIDATES, has_candidates};
 use super::view::Stage;
 use crate::display::words;
-use crate::effects::State;
 use crate::identify::Status;
 use crate::session::validation::has_records;
 
@@ -36,7 +35,7 @@ impl App {
             Stage::Structure if p.structure.len() == 1 => StageStatus::done("1 degree of freedom."),
             Stage::Structure => StageStatus::done(&format!("{} degrees of freedom.", p.structure.len())),
             Stage::Pattern => {
-                let open = p.sources.iter().filter(|s| matches!(s.state, State::Candidate | State::Forced)).count();
+                let open = p.sources.iter().filter(|s| s.state.is_sought()).count();
                 if open == 0 {
                     StageStatus::empty("No candidates: click on the schematic or add a family.")
                 } else {

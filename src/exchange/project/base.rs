@@ -1,7 +1,7 @@
 //! Table `[base]`, and the base of a run.
 
 use super::error::{Problem, ProjectError};
-use super::file::{BaseResponse, BaseTable, RunTable};
+use super::file::{BaseTable, RunTable};
 use super::reader::Table;
 
 /// A direction and an amplitude belong together.
@@ -14,20 +14,9 @@ pub(super) fn half_a_base(table: &Table<'_>, run: Option<&RunTable>) -> Result<(
     Err(table.error(key, Problem::HalfAForce { key, other }))
 }
 
-/// `response = "absolute"` or `"relative"`.
-pub(super) fn response(table: &Table<'_>) -> Result<Option<BaseResponse>, ProjectError> {
-    table.word("response", &["absolute", "relative"], |word| {
-        Some(match word {
-            "absolute" => BaseResponse::Absolute,
-            "relative" => BaseResponse::Relative,
-            _ => return None,
-        })
-    })
-}
-
 /// Table `[base]`.
 pub(super) fn parse(root: &Table<'_>) -> Result<BaseTable, ProjectError> {
     let Some(table) = root.table("base", "[base]")? else { return Ok(BaseTable::default()) };
-    table.only(&["response"])?;
-    Ok(BaseTable { response: response(&table)?.unwrap_or_default() })
+    table.only_in::<BaseTable>(&[])?;
+    Ok(BaseTable { response: table.variant("response")?.unwrap_or_default() })
 }

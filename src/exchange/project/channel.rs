@@ -20,10 +20,10 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTa
         let same = |other: &ChannelTable| other.channel() == channel.channel() && !apart(other);
         if let Some(first) = channels.iter().position(same) {
             let what = format!("the channel {}", channel.channel());
-            return Err(table.error("dof", Problem::Twice { what, first: lines.channel[first] }));
+            return Err(table.error("dof", Problem::Twice { what, first: lines.of(table.name, first, "") }));
         }
         channels.push(channel);
-        lines.channel.push(table.line());
+        lines.note(&table);
     }
     Ok(channels)
 }

@@ -2,6 +2,7 @@
 //! such as the stiffness of a mode or of a range of elements; what model updating found.
 
 use super::error::{Problem, ProjectError};
+use super::keys_of::keys_of;
 use super::label::Label;
 use super::lines::Lines;
 use super::reader::Table;
@@ -29,35 +30,6 @@ pub enum Corrected {
 }
 
 impl Corrected {
-    const WORDS: [&'static str; 10] = [
-        "stiffness",
-        "mass",
-        "mode",
-        "mode_damping",
-        "mode_damping_per_octave",
-        "spring",
-        "point_mass",
-        "element_stiffness",
-        "element_mass",
-        "support",
-    ];
-
-    fn from_word(word: &str) -> Option<Self> {
-        let all = [
-            Self::Stiffness,
-            Self::Mass,
-            Self::Mode,
-            Self::ModeDamping,
-            Self::ModeDampingPerOctave,
-            Self::Spring,
-            Self::PointMass,
-            Self::ElementStiffness,
-            Self::ElementMass,
-            Self::Support,
-        ];
-        Self::WORDS.iter().position(|w| *w == word).map(|k| all[k])
-    }
-
     /// Whether a part of this kind is named by `key`.
     fn takes(self, key: &str) -> Result<(), Problem> {
         let own = match self {
@@ -67,7 +39,7 @@ impl Corrected {
             Self::ElementStiffness | Self::ElementMass => "elements",
             Self::Support => "node",
         };
-        let table = format!("[[structure.correction]] of what = \"{}\"", Self::WORDS[self as usize]);
+        let table = format!("[[structure.correction]] of what = \"{}\"", keys_of::<Self>()[self as usize]);
         let hint = if own.is_empty() { "leave it out".to_owned() } else { format!("its part is named by `{own}`") };
         let problem = Problem::UnknownKey { table, key: key.to_owned(), hint };
         if own == key { Ok(()) } else { Err(problem) }
@@ -184,9 +156,8 @@ impl CorrectionTable {
 pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<CorrectionTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in structure.tables("correction", "[[structure.correction]]")? {
-        table.only(&["what", "dofs", "elements", "mode", "node", "factor"])?;
-        let what = table.word("what", &Corrected::WORDS, Corrected::from_word)?;
-        let what = table.need("what", "what = \"mode\"", what)?;
+        table.only_in::<CorrectionTable>(&[])?;
+        let what: Corrected = table.need("what", "what = \"mode\"", table.variant("what")?)?;
         let dofs: Vec<_> = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         let factor = table.need("factor", "factor = 1.02", table.number("factor")?)?;
         if !FACTORS.contains(&factor) {
@@ -200,7 +171,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
             what.takes(key).map_err(|problem| table.error(key, problem))?;
         }
         tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
-        lines.correction.push(table.line());
+        lines.note(&table);
     }
     Ok(tables)
 }

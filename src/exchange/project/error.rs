@@ -1,5 +1,6 @@
 //! What can be wrong with a project, said in one line: file, line, what, and how to mend it.
 
+use crate::effects::Effect;
 use crate::effects::source::SourceError;
 use crate::exchange::frf::FrfError;
 use crate::exchange::matrices::TableError;
@@ -12,7 +13,7 @@ use std::fmt;
 /// A project that cannot be used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProjectError {
-    /// File as its reader was given it.
+    /// File as its reader was given it; empty where the project was not read from one.
     pub file: String,
     /// Line of the file, from 1, where one is at fault.
     pub line: Option<usize>,
@@ -34,6 +35,7 @@ impl fmt::Display for ProjectError {
         }
         match self.line {
             Some(line) => write!(f, "{}:{line}: {}", self.file, self.problem),
+            None if self.file.is_empty() => write!(f, "{}", self.problem),
             None => write!(f, "{}: {}", self.file, self.problem),
         }
     }
@@ -63,8 +65,10 @@ pub enum Problem {
     NotAllowed { key: String, value: String, allowed: String },
     #[error("format {found} was written by a newer version of dashpot; this one reads format 1, so update dashpot")]
     Newer { found: u64 },
-    #[error("{what} is given twice, first in line {first}; leave one out")]
-    Twice { what: String, first: usize },
+    #[error("{what} is given twice{}; leave one out", first_in(*first))]
+    Twice { what: String, first: Option<usize> },
+    #[error("{}", source_twice(*law, place, *first))]
+    SourceTwice { law: Effect, place: String, first: Option<usize> },
     #[error("{table} has no {what}; add {example}")]
     Empty { table: String, what: &'static str, example: &'static str },
     #[error("`{key}` is there without `{other}`; give both or none")]
@@ -121,4 +125,16 @@ pub enum Problem {
     Frf(Box<FrfError>),
     #[error("{file} has no usable line in the band; correct `band`")]
     NoLines { file: String },
+}
+
+fn first_in(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!(", first in line {line}"))
+}
+
+/// Of a text the lines, of what is drawn the place.
+fn source_twice(law: Effect, place: &str, first: Option<usize>) -> String {
+    match first {
+        Some(_) => format!("law `{law}` at the same place is given twice{}; leave one out", first_in(first)),
+        None => format!("`{law}` is already drawn between the same DOFs ({place}); change that one instead"),
+    }
 }

@@ -4,13 +4,13 @@ use super::error::{Problem, ProjectError};
 use super::label::Label;
 use super::reader::Table;
 use crate::response::recording::Loading;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Longest record, s.
 const LONGEST: f64 = 1e6;
 
 /// Table `excitation` of a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExcitationTable {
     /// DOF of the force; of a release, the one whose displacement is given. A base has none.
     pub dof: Option<Label>,

@@ -19,7 +19,7 @@ use crate::structure::LumpedMass;
 use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// The newest format that is understood.
@@ -78,7 +78,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 /// Table `[project]`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// Version of the format.
     pub format: u64,
@@ -120,7 +120,7 @@ pub enum Shape {
 }
 
 /// Files of a structure that is given by its matrices, relative to the project.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MatricesTable {
     /// Mass matrix.
     pub mass: String,
@@ -141,7 +141,7 @@ pub struct MatricesTable {
 }
 
 /// Measured points.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointsTable {
     /// Labels.
     pub dofs: Vec<Label>,
@@ -180,7 +180,7 @@ pub struct CandidatesTable {
 }
 
 /// Table `[[sensor]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SensorTable {
     /// Channel, such as `acc@7`.
     pub channel: String,
@@ -199,7 +199,7 @@ impl SensorTable {
 }
 
 /// Table `[[run]]`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunTable {
     /// Record, relative to the project.
     pub file: String,
@@ -248,14 +248,14 @@ pub struct RunTable {
 }
 
 /// Table `[base]`: a structure on a moving base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub struct BaseTable {
     /// What the motions of the records are.
     pub response: BaseResponse,
 }
 
 /// What a sensor on a structure with a moving base shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BaseResponse {
     /// The motion in space: accelerometers.
@@ -297,7 +297,7 @@ fn word<S: Serializer>(quantity: &Option<Quantity>, serializer: S) -> Result<S::
 }
 
 /// Table `[simulate]`: what `simulate` records.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SimulateTable {
     /// Channels with their units, such as `acc@7 [m/s^2]`; empty: the force and every translation's acceleration.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -339,6 +339,11 @@ impl ProjectFile {
     /// Only if TOML cannot hold the data, which no project that was read can cause.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
+    }
+
+    /// What is stated of a channel.
+    pub(crate) fn sensor_at(&self, channel: &str) -> Option<&SensorTable> {
+        self.sensor.iter().find(|table| table.channel.trim() == channel.trim())
     }
 
     /// Whether runs of this kind are fitted as steady states; loops of a component are compared as they are, whatever they

@@ -106,7 +106,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>
     let mut tables = Vec::new();
     for table in root.tables("frf", "[[frf]]")? {
         tables.push(one(&table, table.need("file", "file = \"hammer.uff\"", table.text("file")?)?)?);
-        lines.frf.push(table.line());
+        lines.note(&table);
     }
     Ok(tables)
 }

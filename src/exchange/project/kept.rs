@@ -1,4 +1,4 @@
-//! The DOF labels that a project uses: those of its sensors, exciters, sources and lumped masses, in the order of the file.
+//! The DOF labels that a project uses beside its structure: those of its sensors, exciters and sources, in the order of the file.
 //! A reduced structure keeps them.
 
 use super::file::{ProjectFile, Shape};
@@ -19,7 +19,6 @@ pub(super) fn labels(file: &ProjectFile, folder: &Path) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     let sources = file.source.iter().flat_map(|source| &source.dofs);
     labels.extend(sources.chain(file.ruled_out.iter().flat_map(|effect| &effect.dofs)).map(|label| label.0.clone()));
-    labels.extend(file.structure.lumped_mass.iter().map(|mass| mass.dof.clone()));
     labels.extend(file.run.iter().filter_map(|run| run.force_dof.as_ref()).map(|label| label.0.clone()));
     labels.extend(file.simulate.channels.iter().filter_map(|text| Some(ChannelName::parse(text).ok()?.label)));
     labels.extend(file.sensor.iter().filter_map(|sensor| Some(parse_name(&sensor.channel).ok()?.1)));

@@ -1,13 +1,7 @@
-//! Keys that several tables share: where each stands, and ranges of elements.
+//! Keys that several tables share: ranges of elements, delays, numbers above zero.
 
 use super::error::{Problem, ProjectError};
 use super::reader::Table;
-use std::collections::BTreeMap;
-
-pub(super) fn key_lines(table: &Table<'_>) -> BTreeMap<String, usize> {
-    let keys = table.keys().into_iter().map(|key| (key.to_owned(), table.line_of(key)));
-    keys.chain([(String::new(), table.line())]).collect()
-}
 
 /// `elements = [first, last]`, from 1.
 pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectError> {

@@ -1,11 +1,13 @@
 //! Reads and fits the records of a project and corrects them for the known errors of their channels.
 
 use super::error::{Problem, ProjectError};
-use super::plan::{Plan, open};
+use super::file::HarmonicsTable;
+use super::plan::{Fitted, Plan, open};
 use crate::control::Control;
 use crate::effects::{self, Place, Source};
 use crate::exchange::Project;
-use crate::exchange::records::base_channel;
+use crate::exchange::mapping::{AmplitudeTable, read_amplitudes};
+use crate::exchange::records::{HarmonicsRun, SteppedSine, base_channel, read_harmonics_as};
 use crate::measurement::proposal::{Proposal, propose};
 use crate::measurement::run::ChannelCorrection;
 use crate::measurement::unsettled::take_unsettled;
@@ -73,6 +75,32 @@ impl Plan {
             piece.report(1.0);
         }
         Ok((runs, transient_runs))
+    }
+
+    /// Reads the runs of every `[[harmonics]]` file, as they were measured.
+    pub fn harmonics(&self) -> Result<Vec<Fitted>, ProjectError> {
+        let files = (0..self.file.harmonics.len()).map(|index| self.harmonics_of(index));
+        Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// The same of `[[harmonics]]` number `index`.
+    pub fn harmonics_of(&self, index: usize) -> Result<Vec<Fitted>, ProjectError> {
+        let table = &self.file.harmonics[index];
+        let wrong = |problem| self.error(self.lines.of("[[harmonics]]", index, ""), problem);
+        let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
+        if !path.is_file() {
+            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+        }
+        let (set, phase_of) = (table.set.as_deref(), table.phase_of);
+        let read = if table.phases.is_empty() {
+            let (force, response) = (table.force.as_deref(), table.response.as_deref());
+            read_harmonics_as(&path, &self.structure, &SteppedSine { force, response, phase_of })
+        } else {
+            let (channels, phases) = (&self.file.channel, &table.phases);
+            read_amplitudes(&path, AmplitudeTable { channels, phases, set, phase_of }, &self.structure)
+        };
+        let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
+        Ok(read.into_iter().map(|run| fitted(table, run)).collect())
     }
 
     /// Reads and fits the record of run number `index`, and corrects it for the known errors of its channels.
@@ -186,11 +214,18 @@ impl Plan {
         for sensor in &self.sensors {
             let Place::Channel(name) = &sensor.place else { continue };
             if !channels.contains(name) {
-                let line = self.file.sensor.iter().position(|table| table.channel.trim() == name);
-                let line = line.map(|i| self.lines.sensor[i]);
+                let sensor = self.file.sensor.iter().position(|table| table.channel.trim() == name);
+                let line = sensor.and_then(|k| self.lines.of("[[sensor]]", k, ""));
                 return Err(self.error(line, Problem::NoSuchChannel { channel: name.clone() }));
             }
         }
         Ok(())
     }
+}
+
+/// A run of a table with what this says of all its runs.
+fn fitted(table: &HarmonicsTable, run: HarmonicsRun) -> Fitted {
+    let HarmonicsRun { name, fit, level, session } = run;
+    let (level, session) = (level.or(table.level), session.or_else(|| table.session.clone()));
+    Fitted { name, fit, level, session, enabled: table.enabled }
 }

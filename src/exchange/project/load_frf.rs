@@ -14,7 +14,7 @@ impl Plan {
     /// [`ProjectError`] with the line of the table, the file and the set.
     pub fn frf(&self, index: usize, control: &Control) -> Result<ChosenRuns, ProjectError> {
         let table = &self.file.frf[index];
-        let wrong = |problem| self.error(Some(self.lines.frf[index]), problem);
+        let wrong = |problem| self.error(self.lines.of("[[frf]]", index, ""), problem);
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let files: Vec<&String> = table.files().collect();
         if let Some(missing) = files.iter().find(|file| !folder.join(file).is_file()) {

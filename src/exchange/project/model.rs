@@ -16,7 +16,7 @@ pub(super) fn is_needed(files: &MatricesTable, folder: &Path) -> bool {
 }
 
 /// Reads the files, reduces the model where that is asked, and builds the structure. `named` are the labels that the project
-/// uses: those among the model's are kept.
+/// uses beside those of its lumped masses: those among the model's are kept.
 pub(super) fn structure(
     files: &MatricesTable,
     folder: &Path,
@@ -39,7 +39,9 @@ pub(super) fn structure(
     let (parameters, reduction) = match &files.reduce {
         None => (whole(model).map_err(wrong)?, None),
         Some(table) => {
-            let (parameters, reduction) = reduced(model, table, named).map_err(wrong)?;
+            let loaded = lumped.iter().map(|mass| mass.dof.as_str());
+            let kept: Vec<&str> = named.iter().map(String::as_str).chain(loaded).collect();
+            let (parameters, reduction) = reduced(model, table, &kept).map_err(wrong)?;
             (parameters, Some(reduction))
         }
     };
@@ -78,7 +80,7 @@ fn whole(model: Model) -> Result<ImportedParameters, StructureError> {
 fn reduced(
     model: Model,
     table: &ReduceTable,
-    named: &[String],
+    named: &[&str],
 ) -> Result<(ImportedParameters, Reduction), StructureError> {
     let n = model.system.mass.size();
     let numbered =
@@ -95,7 +97,7 @@ fn reduced(
         let unknown = || StructureError::UnknownDof { label: label.0.clone(), near: near() };
         kept.push(*rows.get(label.0.as_str()).ok_or_else(unknown)?);
     }
-    kept.extend(named.iter().filter_map(|label| rows.get(label.as_str()).copied()));
+    kept.extend(named.iter().filter_map(|label| rows.get(label).copied()));
     kept.sort_unstable();
     kept.dedup();
     let method = Method::from_name(&table.method).unwrap_or(Method::CraigBampton);

@@ -5,11 +5,11 @@ use super::frf::dofs;
 use super::label::Label;
 use super::lines::Lines;
 use super::reader::Table;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Table `[[modes]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModesTable {
     /// Universal File with data sets 55 or 2414, relative to the project.
     pub file: String,
@@ -22,10 +22,10 @@ pub struct ModesTable {
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ModesTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in root.tables("modes", "[[modes]]")? {
-        table.only(&["file", "dofs"])?;
+        table.only_in::<ModesTable>(&[])?;
         let file = table.need("file", "file = \"modes.uff\"", table.text("file")?)?;
         tables.push(ModesTable { file, dofs: dofs(&table, "dofs", "[modes.dofs]")? });
-        lines.modes.push(table.line());
+        lines.note(&table);
     }
     Ok(tables)
 }

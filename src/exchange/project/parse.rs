@@ -5,17 +5,16 @@ use super::file::{
     CandidatesTable, FORMAT, Header, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape, SimulateTable,
     SourceTable, StructureTable,
 };
-use super::keys::{elements, key_lines};
+use super::keys::elements;
 use super::label::Label;
 use super::reader::{Origin, Table};
 use super::runs::{harmonics, runs};
 use super::{base, channel, correction, frf, modes, reduce, report, ruled_out};
-use crate::balance::{Expansion, Weights};
+use crate::effects::Effect;
 use crate::effects::family::Family;
-use crate::effects::{Effect, State};
 use crate::identify::Settings;
 use crate::structure::LumpedMass;
-use crate::structure::beam::{BeamParameters, Supports};
+use crate::structure::beam::BeamParameters;
 use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
@@ -37,35 +36,8 @@ const TABLES: [&str; 15] = [
     "simulate",
     "report",
 ];
-const BEAM: [&str; 10] = [
-    "kind",
-    "lumped_mass",
-    "correction",
-    "length",
-    "breadth",
-    "depth",
-    "youngs_modulus",
-    "density",
-    "elements",
-    "supports",
-];
-const CHAIN: [&str; 6] = ["kind", "lumped_mass", "correction", "masses", "ground_stiffness", "coupling_stiffness"];
-const MATRICES: [&str; 11] = [
-    "kind",
-    "lumped_mass",
-    "correction",
-    "mass",
-    "stiffness",
-    "nodes",
-    "dofs",
-    "lines",
-    "mass_name",
-    "stiffness_name",
-    "reduce",
-];
-const COMPONENT: [&str; 4] = ["kind", "lumped_mass", "dof", "mass"];
-const POINTS: [&str; 4] = ["kind", "lumped_mass", "dofs", "positions"];
-const ANALYSIS: [&str; 6] = ["harmonics", "expansion", "keep", "weights", "max_sources", "stop_angle_deg"];
+/// Keys of every `[structure]` with matrices; the others are those of its kind.
+const STRUCTURE: [&str; 3] = ["kind", "lumped_mass", "correction"];
 
 /// Most harmonics, sources and so on that a setting may ask for.
 const MOST: usize = 1000;
@@ -118,14 +90,14 @@ fn header(root: &Table<'_>) -> Read<Header> {
         let problem = Problem::OutOfRange { key: "format".into(), value: format.to_string(), range: "1" };
         return Err(table.error("format", problem));
     }
-    table.only(&["format", "title", "notes"])?;
+    table.only_in::<Header>(&[])?;
     let title = table.text("title")?.unwrap_or_default();
     Ok(Header { format: FORMAT, title, notes: table.text("notes")?.unwrap_or_default() })
 }
 
 fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     let table = root.need("structure", "[structure]", root.table("structure", "[structure]")?)?;
-    lines.structure = key_lines(&table);
+    lines.note(&table);
     let kinds = ["beam", "chain", "matrices", "points", "component"];
     let kind = table.word("kind", &kinds, |word| kinds.iter().position(|&kind| kind == word))?;
     let shape = match table.need("kind", "kind = \"beam\"", kind)? {
@@ -137,8 +109,8 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
     };
     let mut lumped_mass = Vec::new();
     for entry in table.tables("lumped_mass", "[[structure.lumped_mass]]")? {
-        entry.only(&["dof", "mass"])?;
-        lines.lumped_mass.push(entry.line());
+        entry.only_in::<LumpedMass>(&[])?;
+        lines.note(&entry);
         let dof = entry.need("dof", "dof = 3", entry.label("dof")?)?;
         lumped_mass.push(LumpedMass { dof, mass: entry.need("mass", "mass = 0.1", entry.number("mass")?)? });
     }
@@ -147,17 +119,8 @@ fn structure(root: &Table<'_>, lines: &mut Lines) -> Read<StructureTable> {
 }
 
 fn beam(table: &Table<'_>) -> Read<BeamParameters> {
-    table.only(&BEAM)?;
+    table.only_in::<BeamParameters>(&STRUCTURE)?;
     let number = |key: &'static str, example| table.need(key, example, table.number(key)?);
-    let names = ["clamped-free", "free-free", "pinned-pinned", "clamped-clamped", "clamped-pinned"];
-    let order = [
-        Supports::ClampedFree,
-        Supports::FreeFree,
-        Supports::PinnedPinned,
-        Supports::ClampedClamped,
-        Supports::ClampedPinned,
-    ];
-    let supports = table.word("supports", &names, |word| names.iter().position(|&n| n == word).map(|i| order[i]))?;
     let elements = table.count("elements", 1, 10_000, "between 1 and 10000")?;
     Ok(BeamParameters {
         length: number("length", "length = 0.56")?,
@@ -166,12 +129,12 @@ fn beam(table: &Table<'_>) -> Read<BeamParameters> {
         youngs_modulus: number("youngs_modulus", "youngs_modulus = 69e9")?,
         density: number("density", "density = 2700.0")?,
         elements: table.need("elements", "elements = 10", elements)?,
-        supports: table.need("supports", "supports = \"clamped-free\"", supports)?,
+        supports: table.need("supports", "supports = \"clamped-free\"", table.variant("supports")?)?,
     })
 }
 
 fn chain(table: &Table<'_>) -> Read<ChainParameters> {
-    table.only(&CHAIN)?;
+    table.only_in::<ChainParameters>(&STRUCTURE)?;
     let list = |key: &'static str, example| table.need(key, example, table.numbers(key)?);
     Ok(ChainParameters {
         masses: list("masses", "masses = [1.0, 2.0]")?,
@@ -181,7 +144,7 @@ fn chain(table: &Table<'_>) -> Read<ChainParameters> {
 }
 
 fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
-    table.only(&MATRICES)?;
+    table.only_in::<MatricesTable>(&STRUCTURE)?;
     Ok(MatricesTable {
         mass: table.need("mass", "mass = \"mass.mtx\"", table.text("mass")?)?,
         stiffness: table.need("stiffness", "stiffness = \"stiffness.mtx\"", table.text("stiffness")?)?,
@@ -195,13 +158,13 @@ fn matrices(table: &Table<'_>) -> Read<MatricesTable> {
 }
 
 fn points(table: &Table<'_>) -> Read<PointsTable> {
-    table.only(&POINTS)?;
+    table.only_in::<PointsTable>(&STRUCTURE[..2])?;
     let dofs = table.need("dofs", "dofs = [\"1\", \"2\"]", table.labels("dofs")?)?;
     Ok(PointsTable { dofs: dofs.into_iter().map(Label).collect(), positions: table.positions("positions")? })
 }
 
 fn component(table: &Table<'_>) -> Read<ComponentParameters> {
-    table.only(&COMPONENT)?;
+    table.only_in::<ComponentParameters>(&STRUCTURE[..2])?;
     Ok(ComponentParameters {
         dof: table.label("dof")?.unwrap_or_else(|| "1".into()),
         mass: table.number("mass")?.unwrap_or(0.0),
@@ -224,26 +187,14 @@ fn law(table: &Table<'_>, base: &[&'static str]) -> Read<(Effect, BTreeMap<Strin
     Ok((effect, parameters))
 }
 
-fn state(word: &str) -> Option<State> {
-    Some(match word {
-        "known" => State::Known,
-        "candidate" => State::Candidate,
-        "forced" => State::Forced,
-        "off" => State::Off,
-        "reference" => State::Reference,
-        _ => return None,
-    })
-}
-
 fn sources(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SourceTable>> {
     let mut sources = Vec::new();
     for table in root.tables("source", "[[source]]")? {
         let (law, parameters) = law(&table, &["law", "dofs", "elements", "state"])?;
-        let states = ["known", "candidate", "forced", "off", "reference"];
-        let state = table.need("state", "state = \"candidate\"", table.word("state", &states, state)?)?;
+        let state = table.need("state", "state = \"candidate\"", table.variant("state")?)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         sources.push(SourceTable { law, dofs, elements: elements(&table)?, state, parameters });
-        lines.source.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(sources)
 }
@@ -255,7 +206,7 @@ fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>>
         let family = table.word("where", &Family::ALL.map(Family::name), Family::from_name)?;
         let family = table.need("where", "where = \"each-translation\"", family)?;
         families.push(CandidatesTable { law, family, parameters });
-        lines.candidates.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(families)
 }
@@ -263,14 +214,14 @@ fn candidates(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<CandidatesTable>>
 fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
     let mut sensors = Vec::new();
     for table in root.tables("sensor", "[[sensor]]")? {
-        table.only(&["channel", "delay", "gain"])?;
+        table.only_in::<SensorTable>(&[])?;
         let channel = table.need("channel", "channel = \"acc@7\"", table.text("channel")?)?;
         let (delay, gain) = (super::keys::delay(&table)?, table.number("gain")?);
         if delay.is_none() && gain.is_none() {
             table.need::<()>("gain", "gain = 1.02` or `delay = 1e-4", None)?;
         }
         sensors.push(SensorTable { channel, delay, gain });
-        lines.sensor.push(table.line());
+        lines.note(&table);
     }
     Ok(sensors)
 }
@@ -278,33 +229,13 @@ fn sensors(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<SensorTable>> {
 fn analysis(root: &Table<'_>) -> Read<Settings> {
     let mut settings = Settings::default();
     let Some(table) = root.table("analysis", "[analysis]")? else { return Ok(settings) };
-    table.only(&ANALYSIS)?;
-    let expansions = ["auto", "none", "single-mode", "modes", "dynamic"];
-    let expansion = |word: &str| {
-        Some(match word {
-            "auto" => Expansion::Auto,
-            "none" => Expansion::None,
-            "single-mode" => Expansion::SingleMode,
-            "modes" => Expansion::Modes,
-            "dynamic" => Expansion::Dynamic,
-            _ => return None,
-        })
-    };
-    let weights = |word: &str| {
-        Some(match word {
-            "auto" => Weights::Auto,
-            "none" => Weights::None,
-            "energy" => Weights::Energy,
-            "noise" => Weights::Noise,
-            _ => return None,
-        })
-    };
+    table.only_in::<Settings>(&[])?;
     let count = |key, least, range, otherwise| Ok(table.count(key, least, MOST, range)?.unwrap_or(otherwise));
     settings.harmonics = count("harmonics", 1, "between 1 and 1000", settings.harmonics)?;
     settings.keep = count("keep", 0, "between 0 and 1000", settings.keep)?;
     settings.max_sources = count("max_sources", 1, "between 1 and 1000", settings.max_sources)?;
-    settings.expansion = table.word("expansion", &expansions, expansion)?.unwrap_or_default();
-    settings.weights = table.word("weights", &["auto", "none", "energy", "noise"], weights)?.unwrap_or_default();
+    settings.expansion = table.variant("expansion")?.unwrap_or_default();
+    settings.weights = table.variant("weights")?.unwrap_or_default();
     if let Some(value) = table.number("stop_angle_deg")? {
         if !(0.0..=90.0).contains(&value) {
             let (key, range) = ("stop_angle_deg".to_owned(), "between 0 and 90 degrees");
@@ -318,8 +249,8 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
 fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     let mut recipe = SimulateTable::default();
     let Some(table) = root.table("simulate", "[simulate]")? else { return Ok(recipe) };
-    table.only(&["channels", "samples", "periods", "integrate", "rate_hz", "bits", "filter"])?;
-    lines.simulate = table.line_of("channels");
+    table.only_in::<SimulateTable>(&[])?;
+    lines.note(&table);
     recipe.channels = table.texts("channels")?.unwrap_or_default();
     let range = "between 16 and 100000000";
     recipe.samples = table.count("samples", 16, MOST_SAMPLES, range)?.unwrap_or(recipe.samples);

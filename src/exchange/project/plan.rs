@@ -2,19 +2,19 @@
 
 use super::error::{Problem, ProjectError};
 use super::excitation::ExcitationTable;
-use super::file::{BaseResponse, HarmonicsTable, Lines, ProjectFile, RunTable, SimulateTable};
+use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
+use super::kept;
 use super::label::Label;
+use super::lines::At;
+use super::reference_shapes::reference_shapes;
 use super::ruled_out_sources::ruled_out;
-use super::sources::{At, line, sensors, sources};
+use super::sources::{sensors, sources};
 use super::structure::structure;
-use super::{kept, reference_shapes};
 use crate::classical::reference_shapes::ReferenceShape;
 use crate::control::Control;
 use crate::effects::Source;
-use crate::exchange::mapping::{AmplitudeTable, ChannelTable, Template, read_amplitudes, read_mapped, reads_as_own};
-use crate::exchange::records::{
-    HarmonicsRun, RecordFileError, RecordProblem, SteppedSine, read_harmonics_as, read_record_with,
-};
+use crate::exchange::mapping::{ChannelTable, Template, read_mapped, reads_as_own};
+use crate::exchange::records::{RecordFileError, RecordProblem, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
 use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
@@ -22,6 +22,9 @@ use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::borrow::Cow;
 use std::path::{Component, Path, PathBuf};
+
+/// Name of the tables of runs.
+const RUN: &str = "[[run]]";
 
 /// A project whose structure and sources are built and whose records are not read yet.
 #[derive(Debug, Clone)]
@@ -163,32 +166,23 @@ pub fn open(path: &Path) -> Result<Plan, ProjectError> {
 pub fn plan(text: &str, path: &Path) -> Result<Plan, ProjectError> {
     let name = path.display().to_string();
     let (mut file, lines) = ProjectFile::parse(text.strip_prefix('\u{feff}').unwrap_or(text), &name)?;
-    let at = At { file: &name, lines: &lines };
     let folder = path.parent().unwrap_or(Path::new(""));
     let named = kept::labels(&file, folder);
-    let structure = structure(&file.structure, folder, &named, at)?;
+    let structure = structure(&file.structure, folder, &named, At { file: &name, lines: &lines })?;
     kept::write_down(&mut file, &structure);
-    let sources = sources(&file, &structure, at)?;
-    let sensors = sensors(&file.sensor, &structure, at)?;
-    let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
-    let runs = runs(&file, &structure, folder, at)?;
-    let reference_shapes = reference_shapes::shapes(&file, &lines, &structure, path)?;
-    recorded(&file.simulate.channels, &structure).map_err(|problem| at.error(lines.simulate, problem))?;
-    let path = path.to_owned();
-    Ok(Plan { path, file, structure, sources, sensors, ruled_out, reference_shapes, runs, lines })
+    Plan::new(file, structure, lines, path)
 }
 
 fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) -> Result<Vec<PlannedRun>, ProjectError> {
     let mut runs: Vec<PlannedRun> = Vec::new();
     for (i, table) in file.run.iter().enumerate() {
-        let lines = &at.lines.run[i];
         if let Some(first) = runs.iter().position(|other| is_same(other, table)) {
             let what = format!("the record \"{}\"", table.file);
-            let first = line(&at.lines.run[first], "file");
-            return Err(at.error(line(lines, "file"), Problem::Twice { what, first }));
+            let first = at.lines.of(RUN, first, "file");
+            return Err(at.error(RUN, i, "file", Problem::Twice { what, first }));
         }
         let row = |label: &Label, key: &str| {
-            let wrong = |error| at.error(line(lines, key), Problem::Structure(Box::new(error)));
+            let wrong = |error| at.error(RUN, i, key, Problem::Structure(Box::new(error)));
             structure.require_dof(&label.0).map_err(wrong)
         };
         let force = match (&table.force_dof, table.force_n) {
@@ -258,6 +252,26 @@ fn measurable(record: Record, path: &Path) -> Result<Record, RecordFileError> {
 }
 
 impl Plan {
+    /// The plan of a project whose structure is built; `lines` say where its keys stand in the text of the file at `path`, if
+    /// they were read from one.
+    ///
+    /// # Errors
+    /// [`ProjectError`] for the first thing that does not hold on the structure.
+    pub fn new(file: ProjectFile, structure: Structure, lines: Lines, path: &Path) -> Result<Self, ProjectError> {
+        let name = path.display().to_string();
+        let at = At { file: &name, lines: &lines };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let sources = sources(&file, &structure, at)?;
+        let sensors = sensors(&file.sensor, &structure, at)?;
+        let ruled_out = ruled_out(&file.ruled_out, &structure, at)?;
+        let runs = runs(&file, &structure, folder, at)?;
+        let reference_shapes = reference_shapes(&file, &structure, folder, at)?;
+        recorded(&file.simulate.channels, &structure)
+            .map_err(|problem| at.error("[simulate]", 0, "channels", problem))?;
+        let path = path.to_owned();
+        Ok(Self { path, file, structure, sources, sensors, ruled_out, reference_shapes, runs, lines })
+    }
+
     /// Settings of the analysis.
     pub fn settings(&self) -> &Settings {
         &self.file.analysis
@@ -270,13 +284,13 @@ impl Plan {
 
     /// File, line and record of run number `run`, as messages begin.
     pub fn place_of_run(&self, run: usize) -> String {
-        let line = line(&self.lines.run[run], "file");
-        format!("{}:{line}: run {}", self.path.display(), self.runs[run].file)
+        let line = self.lines.of(RUN, run, "file").map_or_else(String::new, |line| format!(":{line}"));
+        format!("{}{line}: run {}", self.path.display(), self.runs[run].file)
     }
 
     /// The problem at a key of run number `run`.
     pub(super) fn run_error(&self, run: usize, key: &str, problem: Problem) -> ProjectError {
-        self.error(Some(line(&self.lines.run[run], key)), problem)
+        self.error(self.lines.of(RUN, run, key), problem)
     }
 
     pub(super) fn error(&self, line: Option<usize>, problem: Problem) -> ProjectError {
@@ -343,50 +357,5 @@ impl Plan {
         };
         read.and_then(|record| measurable(record, &planned.path))
             .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
-    }
-
-    /// Reads the runs of every `[[harmonics]]` file, as they were measured.
-    pub fn harmonics(&self) -> Result<Vec<Fitted>, ProjectError> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let mut runs = Vec::new();
-        for (i, table) in self.file.harmonics.iter().enumerate() {
-            let wrong = |problem| self.error(Some(self.lines.harmonics[i]), problem);
-            let path = folder.join(&table.file);
-            if !path.is_file() {
-                return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
-            }
-            if !table.phases.is_empty() {
-                let amplitudes = AmplitudeTable {
-                    channels: &self.file.channel,
-                    phases: &table.phases,
-                    set: table.set.as_deref(),
-                    phase_of: table.phase_of,
-                };
-                let read = read_amplitudes(&path, amplitudes, &self.structure);
-                let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
-                runs.extend(read.into_iter().map(|run| fitted(table, run)));
-                continue;
-            }
-            let stepped = SteppedSine {
-                force: table.force.as_deref(),
-                response: table.response.as_deref(),
-                phase_of: table.phase_of,
-            };
-            let read = read_harmonics_as(&path, &self.structure, &stepped);
-            let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
-            runs.extend(read.into_iter().map(|run| fitted(table, run)));
-        }
-        Ok(runs)
-    }
-}
-
-/// A run of a table with what this says of all its runs.
-fn fitted(table: &HarmonicsTable, run: HarmonicsRun) -> Fitted {
-    Fitted {
-        level: run.level.or(table.level),
-        session: run.session.or_else(|| table.session.clone()),
-        enabled: table.enabled,
-        name: run.name,
-        fit: run.fit,
     }
 }

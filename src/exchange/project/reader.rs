@@ -1,7 +1,10 @@
 //! Reads values from parsed TOML by key, with the line of everything that is wrong.
 
 use super::error::{Problem, ProjectError};
+use super::keys_of::keys_of;
 use crate::math::GREATEST;
+use serde::de::DeserializeOwned;
+use serde::de::value::{Error as ValueError, StrDeserializer};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -100,6 +103,11 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// [`Self::only`] of `more` and the keys that a table of type `T` has.
+    pub(super) fn only_in<T: DeserializeOwned>(&self, more: &[&'static str]) -> Result<(), ProjectError> {
+        self.only(&[more, keys_of::<T>()].concat())
+    }
+
     fn get(&self, key: &str) -> Option<&'a Value<'a>> {
         self.entries.get(key)
     }
@@ -187,6 +195,11 @@ impl<'a> Table<'a> {
         let list = allowed.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
         let problem = Problem::NotAllowed { key: key.into(), value: one_line(&value), allowed: list };
         read(&value).map(Some).ok_or_else(|| self.error(key, problem))
+    }
+
+    /// A word that is a variant of `T`.
+    pub(super) fn variant<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, ProjectError> {
+        self.word(key, keys_of::<T>(), |word| T::deserialize(StrDeserializer::<ValueError>::new(word)).ok())
     }
 
     fn list(&self, key: &str, expected: &'static str) -> Result<Option<Vec<&'a Value<'a>>>, ProjectError> {

@@ -5,10 +5,10 @@ use super::keys::above_zero;
 use super::label::Label;
 use super::reader::Table;
 use crate::structure::reduction::Method;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Table `[structure.reduce]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReduceTable {
     /// `guyan` or `craig-bampton`.
     pub method: String,
@@ -25,7 +25,7 @@ pub struct ReduceTable {
 
 /// Table `[structure.reduce]`.
 pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
-    table.only(&["method", "up_to_hz", "band_hz", "error", "dofs"])?;
+    table.only_in::<ReduceTable>(&[])?;
     let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
     let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
     let frequency = |key: &'static str| above_zero(table, key, "above 0 Hz");

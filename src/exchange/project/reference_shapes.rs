@@ -2,52 +2,36 @@
 
 use super::error::{Problem, ProjectError};
 use super::file::ProjectFile;
-use super::lines::Lines;
+use super::lines::At;
 use crate::classical::reference_shapes::ReferenceShape;
-use crate::exchange::frf::{FrfError, read_shapes};
+use crate::exchange::frf::read_shapes;
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-impl ProjectFile {
-    /// The modes and operating shapes of other programs, read from their files in `folder`.
-    ///
-    /// # Errors
-    /// The number of the table and what is wrong with its file.
-    pub fn reference_shapes(
-        &self,
-        structure: &Structure,
-        folder: &Path,
-    ) -> Result<Vec<ReferenceShape>, (usize, FrfError)> {
-        let responses = self.frf.iter().flat_map(|table| &table.dofs);
-        let of_responses: BTreeMap<String, String> =
-            responses.map(|(name, label)| (name.clone(), label.0.clone())).collect();
-        let mut shapes = Vec::new();
-        for (i, table) in self.modes.iter().enumerate() {
-            let mut dofs = of_responses.clone();
-            dofs.extend(table.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())));
-            let read = read_shapes(&folder.join(&table.file), &table.file, &dofs, structure);
-            shapes.extend(read.map_err(|error| (i, error))?);
-        }
-        Ok(shapes)
-    }
-}
-
-/// The shapes with the problem at the line of their table.
-pub(super) fn shapes(
+/// The modes and operating shapes of other programs, read from their files in `folder`.
+///
+/// # Errors
+/// [`ProjectError`] at the table whose file is missing or wrong.
+pub(crate) fn reference_shapes(
     file: &ProjectFile,
-    lines: &Lines,
     structure: &Structure,
-    path: &Path,
+    folder: &Path,
+    at: At<'_>,
 ) -> Result<Vec<ReferenceShape>, ProjectError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let missing = file.modes.iter().position(|table| !folder.join(&table.file).is_file());
-    if let Some(i) = missing {
-        let problem = Problem::NoRecord { file: file.modes[i].file.clone() };
-        return Err(ProjectError::new(&path.display().to_string(), lines.modes.get(i).copied(), problem));
+    let wrong = |k: usize, problem| at.error("[[modes]]", k, "", problem);
+    if let Some(k) = file.modes.iter().position(|table| !folder.join(&table.file).is_file()) {
+        return Err(wrong(k, Problem::NoRecord { file: file.modes[k].file.clone() }));
     }
-    file.reference_shapes(structure, folder).map_err(|(i, error)| {
-        let line = lines.modes.get(i).copied();
-        ProjectError::new(&path.display().to_string(), line, Problem::Frf(Box::new(error)))
-    })
+    let responses = file.frf.iter().flat_map(|table| &table.dofs);
+    let of_responses: BTreeMap<String, String> =
+        responses.map(|(name, label)| (name.clone(), label.0.clone())).collect();
+    let mut shapes = Vec::new();
+    for (k, table) in file.modes.iter().enumerate() {
+        let mut dofs = of_responses.clone();
+        dofs.extend(table.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())));
+        let read = read_shapes(&folder.join(&table.file), &table.file, &dofs, structure);
+        shapes.extend(read.map_err(|error| wrong(k, Problem::Frf(Box::new(error))))?);
+    }
+    Ok(shapes)
 }

@@ -28,7 +28,7 @@ pub struct ReportTable {
 /// Table `[report]`.
 pub(super) fn parse(root: &Table<'_>) -> Result<ReportTable, ProjectError> {
     let Some(table) = root.table("report", "[report]")? else { return Ok(ReportTable::default()) };
-    table.only(&["title", "object", "tester", "organisation", "logo"])?;
+    table.only_in::<ReportTable>(&[])?;
     Ok(ReportTable {
         title: table.text("title")?,
         object: table.text("object")?,

@@ -6,10 +6,10 @@ use super::label::Label;
 use super::lines::Lines;
 use super::reader::Table;
 use crate::effects::Effect;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Table `[[ruled_out]]`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RuledOutTable {
     /// Law.
     pub law: Effect,
@@ -26,12 +26,12 @@ pub struct RuledOutTable {
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<RuledOutTable>, ProjectError> {
     let mut tables = Vec::new();
     for table in root.tables("ruled_out", "[[ruled_out]]")? {
-        table.only(&["law", "dofs", "elements", "channel"])?;
+        table.only_in::<RuledOutTable>(&[])?;
         let law = table.word("law", &Effect::ALL.map(Effect::name), Effect::from_name)?;
         let law = table.need("law", "law = \"coulomb\"", law)?;
         let dofs = table.labels("dofs")?.unwrap_or_default().into_iter().map(Label).collect();
         tables.push(RuledOutTable { law, dofs, elements: elements(&table)?, channel: table.text("channel")? });
-        lines.ruled_out.push(super::keys::key_lines(&table));
+        lines.note(&table);
     }
     Ok(tables)
 }

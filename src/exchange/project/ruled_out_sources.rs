@@ -1,8 +1,9 @@
 //! Effects that are ruled out, at their places on the structure.
 
 use super::error::{Problem, ProjectError};
+use super::lines::At;
 use super::ruled_out::RuledOutTable;
-use super::sources::{At, at_place, blamed, channel};
+use super::sources::{at_place, channel, key_at_fault};
 use crate::effects::{Kind, Place, Source};
 use crate::structure::Structure;
 
@@ -35,8 +36,8 @@ pub(super) fn ruled_out(
     structure: &Structure,
     at: At<'_>,
 ) -> Result<Vec<Source>, ProjectError> {
-    let source_of = |(table, lines): (&RuledOutTable, _)| {
-        table.source(structure).map_err(|problem| at.error(blamed(lines, &problem), problem))
+    let source_of = |(k, table): (usize, &RuledOutTable)| {
+        table.source(structure).map_err(|problem| at.error("[[ruled_out]]", k, key_at_fault(&problem), problem))
     };
-    tables.iter().zip(&at.lines.ruled_out).map(source_of).collect()
+    tables.iter().enumerate().map(source_of).collect()
 }

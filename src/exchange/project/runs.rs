@@ -3,38 +3,15 @@
 use super::error::{Problem, ProjectError};
 use super::file::{HarmonicsTable, Lines, RunTable};
 use super::frf::dofs;
-use super::keys::{above_zero, key_lines};
+use super::keys::above_zero;
 use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;
-use crate::measurement::{Kind, Part, Quantity};
+use crate::measurement::{Part, Quantity};
 use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
-
-const RUN: [&str; 20] = [
-    "dofs",
-    "base",
-    "base_m_s2",
-    "response",
-    "set",
-    "sets",
-    "sampling_hz",
-    "file",
-    "frequency",
-    "kind",
-    "start_s",
-    "end_s",
-    "session",
-    "level",
-    "use",
-    "force_dof",
-    "force_n",
-    "frequency_shift",
-    "excitation",
-    "exponential_window_s",
-];
 
 impl RunTable {
     /// A steady run of a record of which nothing else is said.
@@ -56,17 +33,17 @@ pub(super) fn name(file: &str, set: Option<&String>) -> String {
 pub(super) fn runs(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<RunTable>> {
     let mut runs = Vec::new();
     for table in root.tables("run", "[[run]]")? {
-        table.only(&RUN)?;
+        table.only_in::<RunTable>(&[])?;
         runs.push(run(&table)?);
         base::half_a_base(&table, runs.last())?;
-        lines.run.push(key_lines(&table));
+        lines.note(&table);
     }
     Ok(runs)
 }
 
 fn run(table: &Table<'_>) -> Read<RunTable> {
     let frequency = above_zero(table, "frequency", "above 0 Hz")?;
-    let kind = table.word("kind", &Kind::NAMES, Kind::from_name)?.unwrap_or_default();
+    let kind = table.variant("kind")?.unwrap_or_default();
     let part = part(table)?;
     let sampling_hz = above_zero(table, "sampling_hz", "above 0 Hz")?;
     let (force_dof, force_n) = force(table)?;
@@ -90,7 +67,7 @@ fn run(table: &Table<'_>) -> Read<RunTable> {
         dofs: dofs(table, "dofs", "`dofs` of the [[run]]")?,
         base: table.word("base", &AXES, |word| AXES.contains(&word).then(|| word.to_owned()))?,
         base_m_s2: table.number("base_m_s2")?,
-        response: base::response(table)?,
+        response: table.variant("response")?,
     })
 }
 
@@ -153,7 +130,7 @@ pub(super) fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<Harmoni
             set: table.text("set")?,
             phases: phases_of(&table)?,
         });
-        lines.harmonics.push(table.line());
+        lines.note(&table);
     }
     Ok(files)
 }

@@ -1,26 +1,13 @@
 //! Sources and sensors of a project on its structure: labels found, families expanded, repetitions refused.
 
 use super::error::{Problem, ProjectError};
-use super::file::{CandidatesTable, Lines, ProjectFile, SensorTable, SourceTable};
+use super::file::{CandidatesTable, ProjectFile, SensorTable, SourceTable};
 use super::label::Label;
+use super::lines::At;
 use crate::effects::source::SourceError;
 use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::measurement::Quantity;
 use crate::structure::{Structure, StructureError};
-use std::collections::BTreeMap;
-
-/// Where problems of a project are said to be.
-#[derive(Clone, Copy)]
-pub(super) struct At<'a> {
-    pub file: &'a str,
-    pub lines: &'a Lines,
-}
-
-impl At<'_> {
-    pub(super) fn error(self, line: usize, problem: Problem) -> ProjectError {
-        ProjectError::new(self.file, Some(line), problem)
-    }
-}
 
 fn structure_problem(error: StructureError) -> Problem {
     Problem::Structure(Box::new(error))
@@ -30,53 +17,27 @@ fn source_problem(error: SourceError) -> Problem {
     Problem::Source(Box::new(error))
 }
 
-/// Line of a key, or of the table without it.
-pub(super) fn line(lines: &BTreeMap<String, usize>, key: &str) -> usize {
-    lines.get(key).or_else(|| lines.get("")).copied().unwrap_or(1)
-}
-
-/// Tables of sources that do not make a pattern on a structure; tables are counted from 0.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum PatternError {
-    /// A table of a source.
-    Source {
-        /// Which.
-        table: usize,
-        /// What is wrong with it.
-        problem: Problem,
-    },
-    /// A table of a family of candidates.
-    Family {
-        /// Which.
-        table: usize,
-        /// What is wrong with it.
-        problem: Problem,
-    },
-    /// Two tables of one law at the same place.
-    Twice {
-        /// Both, in the order of the file.
-        tables: [usize; 2],
-    },
-}
-
 /// All sources: those written one by one, then the families where nothing is written already. A place that is a candidate
 /// already, or forced, is not offered twice.
 ///
 /// # Errors
-/// [`PatternError`] for the first table that does not hold.
-pub(crate) fn expanded(file: &ProjectFile, structure: &Structure) -> Result<Vec<Source>, PatternError> {
+/// [`ProjectError`] for the first table that does not hold.
+pub(crate) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+    const SOURCE: &str = "[[source]]";
+    let wrong = |name, k, problem: Problem| at.error(name, k, key_at_fault(&problem), problem);
     let mut sources: Vec<Source> = Vec::new();
-    for (table, written) in file.source.iter().enumerate() {
-        let source = single(written, structure).map_err(|problem| PatternError::Source { table, problem })?;
+    for (k, table) in file.source.iter().enumerate() {
+        let source = single(table, structure).map_err(|problem| wrong(SOURCE, k, problem))?;
         if let Some(first) = sources.iter().position(|other| clashes(other, &source)) {
-            return Err(PatternError::Twice { tables: [first, table] });
+            let (place, first) = (place_words(&table.dofs, table.elements), at.lines.of(SOURCE, first, ""));
+            return Err(wrong(SOURCE, k, Problem::SourceTwice { law: table.law, place, first }));
         }
         sources.push(source);
     }
-    for (table, family) in file.candidates.iter().enumerate() {
-        let members = members(family, structure).map_err(|problem| PatternError::Family { table, problem })?;
+    for (k, table) in file.candidates.iter().enumerate() {
+        let members = members(table, structure).map_err(|problem| wrong("[[candidates]]", k, problem))?;
         for source in members {
-            if !sources.iter().any(|other| is_sought(other.state) && other.is_same(&source)) {
+            if !sources.iter().any(|other| other.state.is_sought() && other.is_same(&source)) {
                 sources.push(source);
             }
         }
@@ -84,33 +45,26 @@ pub(crate) fn expanded(file: &ProjectFile, structure: &Structure) -> Result<Vec<
     Ok(sources)
 }
 
-/// The sources of a file, what is wrong with its lines.
-pub(super) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
-    expanded(file, structure).map_err(|error| match error {
-        PatternError::Source { table, problem } => at.error(blamed(&at.lines.source[table], &problem), problem),
-        PatternError::Family { table, problem } => at.error(blamed(&at.lines.candidates[table], &problem), problem),
-        PatternError::Twice { tables: [first, second] } => {
-            let what = format!("law `{}` at the same place", file.source[second].law);
-            let [first, second] = [first, second].map(|table| line(&at.lines.source[table], ""));
-            at.error(second, Problem::Twice { what, first })
-        }
-    })
-}
-
-/// Whether identification may select it.
-pub(crate) fn is_sought(state: State) -> bool {
-    matches!(state, State::Candidate | State::Forced)
+/// A place in words, as the file names it.
+pub(crate) fn place_words(dofs: &[Label], elements: Option<[i64; 2]>) -> String {
+    let labels: Vec<&str> = dofs.iter().map(|label| label.0.as_str()).collect();
+    match (&labels[..], elements) {
+        ([], Some([first, last])) => format!("elements {first} to {last}"),
+        ([], None) => "the whole structure".into(),
+        ([label], _) => format!("DOF {label} to the ground"),
+        (many, _) => format!("DOFs {}", many.join(", ")),
+    }
 }
 
 /// Whether two written sources cannot both be meant. What is known may have more of the same law found on top of it.
 fn clashes(a: &Source, b: &Source) -> bool {
-    let alike = a.state == b.state || (is_sought(a.state) && is_sought(b.state));
+    let alike = a.state == b.state || (a.state.is_sought() && b.state.is_sought());
     alike && a.state != State::Off && a.is_same(b)
 }
 
-/// Line of the key that a problem of a source is about.
-pub(super) fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usize {
-    let key = match problem {
+/// The key that a problem of a source is about; empty where it is about the whole table.
+pub(super) fn key_at_fault(problem: &Problem) -> &'static str {
+    match problem {
         Problem::Structure(_) => "dofs",
         Problem::EmptyFamily { .. } => "where",
         Problem::ChannelLaw { .. } => "law",
@@ -121,8 +75,7 @@ pub(super) fn blamed(lines: &BTreeMap<String, usize>, problem: &Problem) -> usiz
             _ => "law",
         },
         _ => "",
-    };
-    line(lines, key)
+    }
 }
 
 /// The place of a law on DOFs, or of one of the whole structure with its range of elements.
@@ -193,21 +146,25 @@ pub(crate) fn members(table: &CandidatesTable, structure: &Structure) -> Result<
 }
 
 /// Known errors of the measuring chain, one source a value.
-pub(super) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+///
+/// # Errors
+/// [`ProjectError`] for the first table that does not hold.
+pub(crate) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
+    const SENSOR: &str = "[[sensor]]";
     let mut sensors: Vec<Source> = Vec::new();
-    let mut first: Vec<usize> = Vec::new();
-    for (i, table) in tables.iter().enumerate() {
-        let line = at.lines.sensor[i];
-        let name = channel(&table.channel, structure).map_err(|problem| at.error(line, problem))?;
+    let mut first = Vec::new();
+    for (k, table) in tables.iter().enumerate() {
+        let wrong = |problem| at.error(SENSOR, k, "", problem);
+        let name = channel(&table.channel, structure).map_err(wrong)?;
         for (effect, value) in table.errors() {
             let source = Source::known(effect, Place::Channel(name.clone()), &[value]);
-            source.check().map_err(|error| at.error(line, source_problem(error)))?;
-            if let Some(k) = sensors.iter().position(|other| other.is_same(&source)) {
+            source.check().map_err(|error| wrong(source_problem(error)))?;
+            if let Some(known) = sensors.iter().position(|other| other.is_same(&source)) {
                 let what = format!("the {effect} of \"{name}\"");
-                return Err(at.error(line, Problem::Twice { what, first: first[k] }));
+                return Err(wrong(Problem::Twice { what, first: first[known] }));
             }
             sensors.push(source);
-            first.push(line);
+            first.push(at.lines.of(SENSOR, k, ""));
         }
     }
     Ok(sensors)

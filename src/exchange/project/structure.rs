@@ -3,31 +3,30 @@
 use super::correction::corrected;
 use super::error::{Problem, ProjectError};
 use super::file::{MatricesTable, Shape, StructureTable};
+use super::lines::At;
 use super::model;
-use super::sources::{At, line};
 use crate::exchange::matrices::{read_dofs, read_lines, read_matrix, read_nodes};
 use crate::structure::imported::ImportedParameters;
 use crate::structure::points::PointParameters;
 use crate::structure::{Structure, StructureError};
 use std::path::Path;
 
+const STRUCTURE: &str = "[structure]";
+const LUMPED_MASS: &str = "[[structure.lumped_mass]]";
+
 /// The structure; `folder` is that of the project.
 ///
 /// `named` are the DOF labels that the rest of the project uses; a reduced structure keeps them.
-pub(super) fn structure(
+///
+/// # Errors
+/// [`ProjectError`] at the key or the table that is wrong, also where a file of its matrices cannot be read.
+pub(crate) fn structure(
     table: &StructureTable,
     folder: &Path,
     named: &[String],
     at: At<'_>,
 ) -> Result<Structure, ProjectError> {
     let lumped = &table.lumped_mass;
-    let wrong = |problem: Problem| {
-        let line = match &problem {
-            Problem::Structure(error) => blamed(error, table, at),
-            _ => line(&at.lines.structure, ""),
-        };
-        at.error(line, problem)
-    };
     let of_structure = |error: StructureError| Problem::Structure(Box::new(error));
     let built = match &table.shape {
         Shape::Beam(parameters) => parameters.build(lumped).map_err(of_structure),
@@ -37,7 +36,7 @@ pub(super) fn structure(
             imported(files, folder).and_then(|parameters| parameters.build(lumped).map_err(of_structure))
         }
         Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => {
-            return Err(at.error(at.lines.lumped_mass.first().copied().unwrap_or(1), Problem::MassOnPoints));
+            return Err(at.error(LUMPED_MASS, 0, "", Problem::MassOnPoints));
         }
         Shape::Points(points) => {
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
@@ -45,8 +44,8 @@ pub(super) fn structure(
         }
         Shape::Component(parameters) => parameters.build().map_err(of_structure),
     };
-    let built = built.map_err(wrong)?;
-    corrected(built, &table.correction).map_err(|(k, problem)| at.error(at.lines.correction[k], problem))
+    let built = built.map_err(|problem| located(problem, table, at))?;
+    corrected(built, &table.correction).map_err(|(k, problem)| at.error("[[structure.correction]]", k, "", problem))
 }
 
 fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {
@@ -65,19 +64,21 @@ fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, 
     })
 }
 
-/// Line of the key that the error is about, as far as it says so.
-fn blamed(error: &StructureError, table: &StructureTable, at: At<'_>) -> usize {
-    if let StructureError::UnknownDof { label, .. } = error
-        && let Some(i) = table.lumped_mass.iter().position(|mass| mass.dof == *label)
+/// The problem at the key that it is about, as far as it says so.
+fn located(problem: Problem, table: &StructureTable, at: At<'_>) -> ProjectError {
+    let Problem::Structure(error) = &problem else { return at.error(STRUCTURE, 0, "", problem) };
+    if let StructureError::UnknownDof { label, .. } = &**error
+        && let Some(k) = table.lumped_mass.iter().position(|mass| mass.dof == *label)
     {
-        return at.lines.lumped_mass[i];
+        return at.error(LUMPED_MASS, k, "", problem);
     }
-    if matches!(error, StructureError::DuplicateDof { .. } | StructureError::EmptyLabel) {
-        return line(&at.lines.structure, "dofs");
+    if matches!(**error, StructureError::DuplicateDof { .. } | StructureError::EmptyLabel) {
+        return at.error(STRUCTURE, 0, "dofs", problem);
     }
     let said = error.to_string();
     // Messages begin with the key, or with its singular and a number: "mass 2 is ..." is about `masses`.
     let word = said.split(' ').next().unwrap_or_default();
-    let key = at.lines.structure.keys().find(|key| *key == word || **key == format!("{word}es"));
-    line(&at.lines.structure, key.map_or("", String::as_str))
+    let plural = format!("{word}es");
+    let key = if at.lines.of(STRUCTURE, 0, &plural) == at.lines.of(STRUCTURE, 0, "") { word } else { &plural };
+    at.error(STRUCTURE, 0, key, problem)
 }

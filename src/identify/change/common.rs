@@ -54,6 +54,6 @@ fn moved(place: &Place, from: &Structure, to: &Structure, state: &'static str) -
 
 /// The known sources of a state, and those given as forced in place of all that were sought.
 pub(super) fn with_forced<'a>(sources: &[Source], forced: impl Iterator<Item = &'a Source>) -> Vec<Source> {
-    let kept = sources.iter().filter(|s| !matches!(s.state, State::Candidate | State::Forced)).cloned();
+    let kept = sources.iter().filter(|s| !s.state.is_sought()).cloned();
     kept.chain(forced.map(|s| Source { state: State::Forced, ..s.clone() })).collect()
 }

@@ -334,13 +334,8 @@ impl Explained {
         self.key.as_ref().filter(|(revision, _)| *revision == document.revision()).map(|(_, key)| key.clone())
     }
 
-    /// Number `index` of the sources that act in the model.
-    pub fn known(&self, document: &Document, index: usize) -> Option<Source> {
-        self.current(document)?.0.known.get(index).cloned()
-    }
-
     /// The sources that act in the model, in the order of the project.
-    pub fn all_known(&self, document: &Document) -> Vec<Source> {
+    pub fn known(&self, document: &Document) -> Vec<Source> {
         self.current(document).map_or_else(Vec::new, |key| key.0.known.clone())
     }
 

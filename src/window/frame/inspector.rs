@@ -230,7 +230,7 @@ fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     });
     ui.add_space(space::S);
     for (k, parameter) in s.effect.parameters().iter().enumerate() {
-        if parameter.linear && matches!(s.state, State::Candidate | State::Forced) {
+        if parameter.linear && s.state.is_sought() {
             ui.pair(parameter.name, "identified");
             continue;
         }

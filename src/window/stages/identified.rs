@@ -1,6 +1,5 @@
 //! What panes of an identification have in common: its outcome or what is shown in its place, heads of columns.
 
-use crate::effects::State;
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::session::validation::has_records;
@@ -17,7 +16,7 @@ pub(crate) const NO_CANDIDATES: &str =
 
 /// Whether any source is to be identified.
 pub(crate) fn has_candidates(p: &Project) -> bool {
-    p.sources.iter().any(|s| matches!(s.state, State::Candidate | State::Forced))
+    p.sources.iter().any(|s| s.state.is_sought())
 }
 
 /// The answer of the identification, or what is shown in its place.

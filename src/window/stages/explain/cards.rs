@@ -208,16 +208,14 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
 }
 
 /// The commands that take the corrections over.
-pub(super) fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
-    let known = |index: usize| scene.explained.known(scene.document, index);
+fn adopted(scene: &Scene<'_>, diagnosis: &Diagnosis) -> Adopted {
     let document = scene.document.session().document();
-    corrections::adopt_all(&diagnosis.corrections, diagnosis.verdict, &known, document)
+    corrections::adopt_all(&diagnosis.corrections, diagnosis.verdict, &scene.known(), document)
 }
 
 /// What a correction corrects.
 pub(super) fn corrected(scene: &Scene<'_>, parameter: &UpdatingParameter) -> String {
-    let known = scene.explained.all_known(scene.document);
-    findings::corrected(&scene.document.project.structure, &known, parameter)
+    findings::corrected(&scene.document.project.structure, &scene.known(), parameter)
 }
 
 /// The end of the way: the model explains the data, and what brought it there.

@@ -3,12 +3,14 @@
 use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
+use crate::diagnosis::channels::ChannelFault;
+use crate::diagnosis::updating::correction::Correction;
 use crate::display::words;
 use crate::display::words::at;
-use crate::effects::{Source, State};
+use crate::effects::{Effect, Place, Source};
 use crate::identify::Outcome;
-use crate::session::corrections::adopt;
-use crate::session::{Command, mending, suggestions};
+use crate::session::adoption::Adoption;
+use crate::session::{Command, EffectAt, Refusal, identified};
 use crate::window::cache::Cached;
 use crate::window::derived::Derived;
 use crate::window::document::Document;
@@ -27,6 +29,15 @@ impl Change {
     fn new(edit: Edit, done: &str) -> Self {
         Self { edit, said: format!("{done} Undo takes it back.") }
     }
+
+    /// A change that takes over what `step` does.
+    fn adopting(
+        scene: &Scene<'_>,
+        done: &str,
+        step: impl FnOnce(&mut Adoption) -> Result<(), Refusal>,
+    ) -> Result<Self, String> {
+        Ok(Self::new(Edit::All(scene.commands(step)?), done))
+    }
 }
 
 /// What a deed changes in the project; nothing where it only changes what is looked at or searched.
@@ -35,15 +46,32 @@ impl Change {
 /// One sentence that says why it cannot be done.
 pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
     let scene = &Scene { document, explained: &derived.explained };
+    let known = || scene.known();
+    let found = scene.diagnosis();
     match deed {
-        Deed::Add(source) => add(scene, source),
+        Deed::Add(source) => add(scene, source).map(Some),
         Deed::Exclude(source) => Ok(Some(rule_out(document, source))),
         Deed::Restore(source) => Ok(Some(allow(document, source))),
-        Deed::TakeOver => take_over(document, derived.known_outcome(document)),
-        Deed::Correct => Ok(correct(scene)),
-        Deed::CorrectOne(k) => Ok(correct_one(scene, *k)),
-        Deed::CorrectSensor { channel, gain, delay } => Ok(Some(correct_sensor(document, channel, [*gain, *delay]))),
-        Deed::Mend(k) => mend(scene, *k),
+        Deed::TakeOver => take_over(scene, derived.known_outcome(document)).map(Some),
+        Deed::Correct => {
+            let all = |found| Change::adopting(scene, "The model is corrected.", |a| a.corrections(found, &known()));
+            found.map(all).transpose()
+        }
+        Deed::CorrectOne(k) => {
+            let single = |found: &Correction| {
+                let done = format!("Corrected: {}.", cards::corrected(scene, &found.parameter));
+                Change::adopting(scene, &done, |a| a.correction(found, &known()))
+            };
+            found.and_then(|found| found.corrections.get(*k)).map(single).transpose()
+        }
+        Deed::CorrectSensor { channel, gain, delay } => correct_sensor(scene, channel, [*gain, *delay]).map(Some),
+        Deed::Mend(k) => {
+            let mended = |fault: &ChannelFault| {
+                let done = format!("Mended: {}.", fault.words());
+                Change::adopting(scene, &done, |a| a.fault(fault, &document.project))
+            };
+            found.and_then(|found| found.channel_faults.get(*k)).map(mended).transpose()
+        }
         Deed::Try(_)
         | Deed::Stop
         | Deed::Return(_)
@@ -60,84 +88,41 @@ fn named(document: &Document, source: &Source) -> String {
     format!("{} {}", words::effect(source.effect), at(&document.project.structure, &source.place))
 }
 
-/// Puts an effect into the model.
-fn add(scene: &Scene<'_>, source: &Source) -> Result<Option<Change>, String> {
-    let commands = with_corrections(scene, source)?;
+/// Puts an effect into the model, as it was promised where it was suggested.
+fn add(scene: &Scene<'_>, source: &Source) -> Result<Change, String> {
+    let commands = scene.commands(|adoption| match scene.diagnosis() {
+        Some(diagnosis) => adoption.suggestion(source, diagnosis, &scene.known()),
+        None => adoption.effect(source),
+    })?;
     let beside = if commands.len() > 1 { ", with what else the search found and corrected" } else { "" };
-    Ok(Some(Change::new(Edit::All(commands), &format!("Added: {}{beside}.", named(scene.document, source)))))
-}
-
-/// What adds a suggested effect as it was promised: the corrections that were fitted beside it, and the rest of its set.
-fn with_corrections(scene: &Scene<'_>, source: &Source) -> Result<Vec<Command>, String> {
-    let document = scene.document.session().document();
-    let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else {
-        return Ok(vec![suggestions::add(source, document)?]);
-    };
-    let mut commands = Vec::new();
-    if diagnosis.is_promised_with_its_set(source) {
-        commands.extend(cards::adopted(scene, diagnosis).commands);
-    }
-    for one in diagnosis.added_with(source) {
-        commands.push(suggestions::add(&one, document)?);
-    }
-    Ok(commands)
+    Ok(Change::new(Edit::All(commands), &format!("Added: {}{beside}.", named(scene.document, source))))
 }
 
 /// Rules an effect out at its place; the search for others follows by itself.
 fn rule_out(document: &Document, source: &Source) -> Change {
-    let command = Command::RuleOut(suggestions::effect_at(source, &document.project.structure));
+    let command = Command::RuleOut(EffectAt::of(source, &document.project.structure));
     Change::new(Edit::Do(command), &format!("Ruled out: {}.", named(document, source)))
 }
 
 /// Lets an effect that was ruled out be searched for again.
 fn allow(document: &Document, source: &Source) -> Change {
-    let command = Command::Allow(suggestions::effect_at(source, &document.project.structure));
+    let command = Command::Allow(EffectAt::of(source, &document.project.structure));
     Change::new(Edit::Do(command), &format!("Allowed again: {}.", named(document, source)))
 }
 
-/// What the search corrected is corrected in the project too.
-fn correct(scene: &Scene<'_>) -> Option<Change> {
-    let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else { return None };
-    Some(Change::new(Edit::All(cards::adopted(scene, diagnosis).commands), "The model is corrected."))
-}
-
-/// One correction becomes a number of the project.
-fn correct_one(scene: &Scene<'_>, k: usize) -> Option<Change> {
-    let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else { return None };
-    let correction = diagnosis.corrections.get(k)?;
-    let name = cards::corrected(scene, &correction.parameter);
-    let known = |index: usize| scene.explained.known(scene.document, index);
-    let adopted = adopt(std::slice::from_ref(correction), &known, scene.document.session().document());
-    Some(Change::new(Edit::All(adopted.commands), &format!("Corrected: {name}.")))
-}
-
-/// A channel that was found to read wrongly is mended in its mapping; the search with the channel as it is then follows by itself.
-fn mend(scene: &Scene<'_>, k: usize) -> Result<Option<Change>, String> {
-    let Some(Ok(diagnosis)) = scene.explained.diagnosis(scene.document) else { return Ok(None) };
-    let Some(fault) = diagnosis.channel_faults.get(k) else { return Ok(None) };
-    let command = mending::command(fault, &scene.document.project)?;
-    Ok(Some(Change::new(Edit::Do(command), &format!("Mended: {}.", fault.words()))))
-}
-
 /// A channel that reads `gain` too large, or `delay` (s) late, beyond what the project states of it.
-fn correct_sensor(document: &Document, channel: &str, [gain, delay]: [f64; 2]) -> Change {
-    let file = document.session().document().file();
-    let table = file.sensor.iter().find(|t| t.channel == channel);
-    let [old_delay, old_gain] = [table.and_then(|t| t.delay), table.and_then(|t| t.gain)];
-    let delay = old_delay.unwrap_or(0.0) + delay;
-    let gain = old_gain.unwrap_or(1.0) * (1.0 + gain);
-    let command = Command::SetSensor {
-        channel: channel.to_owned(),
-        delay: (delay != 0.0).then_some(delay),
-        gain: (gain != 1.0).then_some(gain),
-    };
-    Change::new(Edit::Do(command), &format!("Corrected: what {channel} reads."))
+fn correct_sensor(scene: &Scene<'_>, channel: &str, [gain, delay]: [f64; 2]) -> Result<Change, String> {
+    let error = |(effect, value)| Source::known(effect, Place::Channel(channel.to_owned()), &[value]);
+    let errors = [(Effect::Gain, 1.0 + gain), (Effect::Delay, delay)].map(error);
+    Change::adopting(scene, &format!("Corrected: what {channel} reads."), |adoption| {
+        errors.iter().try_for_each(|error| adoption.effect(error))
+    })
 }
 
 /// What the identification found becomes known.
-fn take_over(document: &Document, found: Option<Cached<Outcome>>) -> Result<Option<Change>, String> {
-    let found = match found {
-        Some(Ok(outcome)) => sought(&document.project.sources, &outcome),
+fn take_over(scene: &Scene<'_>, outcome: Option<Cached<Outcome>>) -> Result<Change, String> {
+    let found: Vec<(usize, f64)> = match outcome {
+        Some(Ok(outcome)) => identified::found(&scene.document.project.sources, &outcome).collect(),
         Some(Err(error)) => return Err(format!("Nothing was identified: {error}")),
         None => return Err("Identification is still running; ask again when it has ended.".to_owned()),
     };
@@ -146,13 +131,5 @@ fn take_over(document: &Document, found: Option<Cached<Outcome>>) -> Result<Opti
         1 => "Known now: 1 identified source. Undo takes it back.".to_owned(),
         many => format!("Known now: {many} identified sources. Undo takes them back."),
     };
-    let commands = suggestions::take_over(&found, document.session().document())?;
-    Ok(Some(Change { edit: Edit::All(commands), said }))
-}
-
-/// Sources that were sought and identified, with their coefficients.
-fn sought(sources: &[Source], outcome: &Outcome) -> Vec<(usize, f64)> {
-    let sought = |s: usize| sources.get(s).is_some_and(|s| matches!(s.state, State::Candidate | State::Forced));
-    let found = outcome.sources.iter().filter(|e| sought(e.source) && e.coefficient > 0.0);
-    found.map(|e| (e.source, e.coefficient)).collect()
+    Ok(Change { edit: Edit::All(scene.commands(|adoption| adoption.identified(&found))?), said })
 }

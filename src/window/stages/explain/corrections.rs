@@ -161,11 +161,10 @@ fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<A
 
 /// One correction, by its place in the list, with the button that takes it over.
 fn correction(ui: &mut Ui, scene: &Scene<'_>, (k, correction): (usize, &Correction), asks: &mut Vec<Ask>) {
-    let known = |k: usize| scene.explained.known(scene.document, k);
     let name = cards::corrected(scene, &correction.parameter);
     let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
     let row = Row { name: &name, value: findings::change(correction), deviations };
-    let adopted = adopt(std::slice::from_ref(correction), &known, scene.document.session().document());
+    let adopted = adopt(std::slice::from_ref(correction), &scene.known(), scene.document.session().document());
     if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
         asks.push(Ask::Explain(Deed::CorrectOne(k)));
     }

@@ -231,7 +231,7 @@ fn head(ui: &mut Ui, look: &mut Look, comparison: &Comparison) -> Rect {
 /// That what was identified does not act in the model yet, where that is so.
 fn said_of_untaken(scene: &Scene<'_>, outcome: Option<&Outcome>) -> Option<&'static str> {
     let sources = &scene.document.project.sources;
-    let sought = |s: &Source| matches!(s.state, State::Candidate | State::Forced);
+    let sought = |s: &Source| s.state.is_sought();
     let found = |e: &Estimate| e.coefficient > 0.0 && sources.get(e.source).is_some_and(sought);
     if !outcome.is_some_and(|o| o.sources.iter().any(found)) {
         return None;
