@@ -1,6 +1,6 @@
 //! Corrections of what the model states, as JSON and in words.
 
-use super::named_sources::{labels, named};
+use super::source_json;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings;
@@ -16,7 +16,7 @@ const LITTLE: f64 = 1e-3;
 /// A correction of what the model states: `what`, its place or mode, and the factor on it.
 pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
     let mut map = Map::new();
-    let dofs = |dofs: &[usize]| json!(labels(&project.structure, &Place::Dofs(dofs.to_vec())));
+    let dofs = |dofs: &[usize]| json!(Place::Dofs(dofs.to_vec()).written(&project.structure).dofs);
     let elements = |range: &[usize; 2]| json!(range.map(|element| element + 1));
     let (what, key, place) = match &correction.parameter {
         UpdatingParameter::Structure(part) => match part {
@@ -39,7 +39,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
         },
         UpdatingParameter::Known(index) => {
             if let Some(source) = problem(project).known().get(*index) {
-                map.extend(named(&project.structure, source));
+                map.extend(source_json::of_effect(source, &project.structure));
             }
             ("source", "", Value::Null)
         }

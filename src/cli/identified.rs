@@ -1,7 +1,7 @@
 //! Takes over what `identify` finds before a model is compared: a project whose damping is still to be found has a model
 //! without any, and nothing limits its response at resonance.
 
-use super::named_sources::labels;
+use super::source_json;
 use super::table::number;
 use crate::control::Control;
 use crate::diagnosis::compare;
@@ -104,11 +104,7 @@ impl Rival {
 
 /// Sources with their places, in words.
 fn names(project: &Project, sources: &[Source]) -> String {
-    let place = |s: &Source| {
-        let labels = labels(&project.structure, &s.place).join("-");
-        if labels.is_empty() { s.effect.to_string() } else { format!("{} at {labels}", s.effect) }
-    };
-    let names: Vec<String> = sources.iter().map(place).collect();
+    let names: Vec<String> = sources.iter().map(|source| source.phrase(&project.structure)).collect();
     if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
 }
 
@@ -121,10 +117,9 @@ fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {
 /// What was taken over, as in the suggestions.
 pub(super) fn document(project: &Project, taken: &[Source]) -> Value {
     let entry = |s: &Source| {
-        let names = s.effect.parameters().iter().map(|p| p.name);
-        let values: serde_json::Map<String, Value> =
-            names.zip(&s.parameters).map(|(name, v)| (name.to_owned(), json!(v))).collect();
-        json!({"effect": s.effect.name(), "dofs": labels(&project.structure, &s.place), "parameters": values})
+        let mut map = source_json::of_effect(s, &project.structure);
+        map.insert("parameters".into(), source_json::parameters(s));
+        Value::Object(map)
     };
     Value::Array(taken.iter().map(entry).collect())
 }

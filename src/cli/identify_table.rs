@@ -125,7 +125,7 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
 fn set(project: &Project, step: &SelectionStep) -> String {
     let estimate_in_words = |estimate: &Estimate| {
         let source = &project.sources[estimate.source];
-        format!("{} {} {}", source.effect, source.place.labels(&project.structure), number(estimate.coefficient))
+        format!("{}: {}", source.phrase(&project.structure), number(estimate.coefficient))
     };
     step.sources.iter().map(estimate_in_words).collect::<Vec<_>>().join(", ")
 }
@@ -137,8 +137,8 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
         let source = &project.sources[estimate.source];
         let reference = references.iter().find(|r| r.effect == source.effect && r.place.is_same(&source.place));
         rows.push(vec![
-            source.effect.name().to_owned(),
-            source.place.labels(&project.structure),
+            source.effect.noun().to_owned(),
+            source.place.cell(&project.structure),
             if source.state == State::Known { "known" } else { "identified" }.to_owned(),
             number(estimate.coefficient),
             if source.state == State::Known { "-".to_owned() } else { digits(estimate.deviation, 2) },
@@ -156,9 +156,8 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
     };
     let mut text = format!("Sources\n{}", table(&rows));
     for missing in references.iter().filter(|reference| !found(reference)) {
-        let place = missing.place.labels(&project.structure);
-        let value = number(missing.coefficient());
-        text.push_str(&format!("  reference not found: {} {place} {value} {}\n", missing.effect, unit(missing)));
+        let (name, value) = (missing.phrase(&project.structure), number(missing.coefficient()));
+        text.push_str(&format!("  reference not found: {name}: {value} {}\n", unit(missing)));
     }
     text
 }
@@ -168,10 +167,7 @@ fn unit(source: &Source) -> &'static str {
 }
 
 fn indistinguishable(project: &Project, outcome: &Outcome) -> String {
-    let name = |index: usize| {
-        let source = &project.sources[index];
-        format!("{} {}", source.effect, source.place.labels(&project.structure))
-    };
+    let name = |index: usize| project.sources[index].phrase(&project.structure);
     let lines = outcome.collinear.iter().filter(|group| !group.others.is_empty()).map(|group| {
         let others: Vec<String> = group.others.iter().map(|&(index, _)| name(index)).collect();
         format!("  {} could as well be {}\n", name(group.source), others.join(" or "))

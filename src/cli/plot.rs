@@ -210,7 +210,7 @@ impl Plotter<'_> {
         let bar = |e: &crate::identify::Estimate| {
             let s = self.p.sources.get(e.source)?;
             let name =
-                format!("{} {}", words::capital(words::effect(s.effect)), words::place(&self.p.structure, &s.place));
+                format!("{} {}", s.effect.title().to_owned(), s.place.cell(&self.p.structure));
             Some(Bar { name, share: 0.01 * e.energy_percent, colour: self.palette.model })
         };
         let list: Vec<Bar> = o.sources.iter().filter_map(bar).collect();

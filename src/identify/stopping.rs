@@ -2,7 +2,6 @@
 //! Bayesian criterion, extended by the number of sets that were to choose from), confirmed by leaving out runs. Without
 //! known noise the angle rules, as in the thesis.
 
-use super::describe::describe;
 use super::negligible::without_negligible;
 use super::outcome::{Form, Status};
 use super::problem::Problem;
@@ -201,7 +200,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
     let accepted =
         (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
     let best = rankings[accepted].best();
-    let names: Vec<String> = best.columns.iter().map(|&j| describe(&problem.columns[j], problem.structure)).collect();
+    let names: Vec<String> = best.columns.iter().map(|&j| problem.columns[j].phrase(problem.structure)).collect();
     let reason = format!(
         "no set of up to {} sources comes below the limit of {limit} deg; the nearest, {}, is at {} deg",
         problem.settings.max_sources,

@@ -63,7 +63,7 @@ fn summary(content: &Content<'_>) -> String {
         Some(Ok(found)) => {
             said.push(findings::sentence(found));
             said.extend(found.suggestions.first().map(|s| {
-                let name = words::title(&p.structure, &s.added.source);
+                let name = s.added.source.title(&p.structure);
                 format!(
                     "Most likely missing: {name}, probability {}; with it the error is {}.",
                     format::chance(s.probability),
@@ -88,7 +88,7 @@ fn identified(content: &Content<'_>, outcome: &Outcome) -> String {
         let share = format::percent(0.01 * e.energy_percent);
         Some(format!(
             "; the largest share is that of {}, {share}",
-            words::title(&p.structure, p.sources.get(e.source)?)
+            p.sources.get(e.source)?.title(&p.structure)
         ))
     });
     format!(

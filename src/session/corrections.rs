@@ -3,11 +3,10 @@
 
 use super::command::{Command, SourceAt};
 use super::document::Document;
-use super::suggestions::labels;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
-use crate::effects::{Effect, Source, State};
+use crate::effects::{Effect, Source, State, WrittenPlace};
 use crate::exchange::project::correction::{CorrectionTable, FACTORS};
 use crate::exchange::project::file::{Shape, StructureTable};
 use crate::structure::{Part, Structure};
@@ -174,7 +173,7 @@ fn lumped(table: &StructureTable, factor: f64) -> Vec<Command> {
 
 /// A known source of another size: its coefficient, or stiffness and force together.
 fn resized(source: &Source, factor: f64, structure: &Structure) -> Command {
-    let (dofs, elements) = labels(&source.place, structure);
+    let WrittenPlace { dofs, elements, .. } = source.place.written(structure);
     let effect: Effect = source.effect;
     let parameters = effect
         .scaled()

@@ -9,10 +9,10 @@ use crate::structure::StructureError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Refusal {
-    #[error("`{law}` is already drawn between the same DOFs ({place}); change that one instead")]
-    DrawnTwice { law: Effect, place: String },
-    #[error("there is no `{law}` at {place}; choose a source of the pattern")]
-    NoSuchSource { law: Effect, place: String },
+    #[error("already drawn: {source_name}; change that one instead")]
+    DrawnTwice { source_name: String },
+    #[error("not drawn: {source_name}; choose a source of the pattern")]
+    NoSuchSource { source_name: String },
     #[error("the family `{family}` of `{law}` is already drawn")]
     FamilyTwice { law: Effect, family: &'static str },
     #[error("the family `{family}` of `{law}` is not drawn")]

@@ -2,7 +2,7 @@
 
 use super::command::SourceAt;
 use super::refusal::Refusal;
-use crate::effects::{Place, Source};
+use crate::effects::{Source, WrittenPlace};
 use crate::exchange::project::file::{ProjectFile, SourceTable};
 use crate::exchange::project::label::Label;
 use crate::exchange::project::ruled_out::RuledOutTable;
@@ -15,8 +15,8 @@ pub(super) fn expand(file: &ProjectFile, structure: &Structure) -> Result<Vec<So
     expanded(file, structure).map_err(|error| match error {
         PatternError::Source { problem, .. } | PatternError::Family { problem, .. } => problem.into(),
         PatternError::Twice { tables: [_, second] } => {
-            let table = &file.source[second];
-            Refusal::DrawnTwice { law: table.law, place: place_words(&table.dofs, table.elements) }
+            let drawn = single(&file.source[second], structure);
+            drawn.map_or_else(Into::into, |source| Refusal::DrawnTwice { source_name: source.phrase(structure) })
         }
     })
 }
@@ -26,8 +26,8 @@ pub(super) fn find(file: &mut ProjectFile, at: &SourceAt, structure: &Structure)
     if let Some(index) = drawn(file, at, structure)? {
         return Ok(index);
     }
-    let absent = || Refusal::NoSuchSource { law: at.law, place: words(&at.dofs, at.elements) };
     let sought = at_place(at.law, &labels(&at.dofs), at.elements, structure)?;
+    let absent = || Refusal::NoSuchSource { source_name: Source::candidate(at.law, sought.clone()).phrase(structure) };
     let mut family = None;
     for (index, table) in file.candidates.iter().enumerate() {
         if table.law == at.law && members(table, structure)?.iter().any(|member| member.place.is_same(&sought)) {
@@ -63,15 +63,9 @@ fn write_out(file: &mut ProjectFile, family: usize, structure: &Structure) -> Re
 }
 
 fn written(source: &Source, parameters: &BTreeMap<String, f64>, structure: &Structure) -> SourceTable {
-    let dofs = match &source.place {
-        Place::Dofs(dofs) => dofs.iter().map(|&dof| Label(structure.label(dof).to_owned())).collect(),
-        Place::Whole(_) | Place::Channel(_) => Vec::new(),
-    };
-    let elements = match source.place {
-        Place::Whole(Some([first, last])) => Some([first as i64 + 1, last as i64 + 1]),
-        _ => None,
-    };
-    SourceTable { law: source.effect, dofs, elements, state: source.state, parameters: parameters.clone() }
+    let WrittenPlace { dofs, elements, .. } = source.place.written(structure);
+    let parameters = parameters.clone();
+    SourceTable { law: source.effect, dofs: labels(&dofs), elements, state: source.state, parameters }
 }
 
 /// The effect that is ruled out, or why it cannot act there.
@@ -82,18 +76,4 @@ pub(super) fn ruled_out(table: &RuledOutTable, structure: &Structure) -> Result<
 /// Labels as the file has them.
 pub(super) fn labels(dofs: &[String]) -> Vec<Label> {
     dofs.iter().cloned().map(Label).collect()
-}
-
-fn place_words(dofs: &[Label], elements: Option<[i64; 2]>) -> String {
-    let dofs: Vec<String> = dofs.iter().map(|label| label.0.clone()).collect();
-    words(&dofs, elements)
-}
-
-fn words(dofs: &[String], elements: Option<[i64; 2]>) -> String {
-    match (dofs, elements) {
-        ([], Some([first, last])) => format!("elements {first} to {last}"),
-        ([], None) => "the whole structure".into(),
-        ([one], _) => format!("DOF {one} to the ground"),
-        (many, _) => format!("DOFs {}", many.join(", ")),
-    }
 }

@@ -3,7 +3,7 @@
 
 use super::command::{Command, EffectAt, SourceAt, SourceSpec};
 use super::document::Document;
-use crate::effects::{Kind, Place, Source, State};
+use crate::effects::{Kind, Place, Source, State, WrittenPlace};
 use crate::exchange::project::file::ProjectFile;
 use crate::structure::Structure;
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ pub fn add(source: &Source, document: &Document) -> Result<Command, String> {
         return Ok(correct(channel, source, document.file()));
     }
     source.check_on(document.structure()).map_err(|e| e.to_string())?;
-    let (dofs, elements) = labels(&source.place, document.structure());
+    let WrittenPlace { dofs, elements, .. } = source.place.written(document.structure());
     let names = source.effect.parameters().iter().map(|parameter| parameter.name.to_owned());
     let values = source.parameters.iter().copied();
     let Some(there) = known_there(source, document) else {
@@ -72,7 +72,7 @@ pub fn take_over(found: &[(usize, f64)], document: &Document) -> Result<Vec<Comm
         let source = document.sources().get(index).ok_or_else(|| format!("there is no source {}", index + 1))?;
         let name = source.effect.coefficient().map(|k| source.effect.parameters()[k].name);
         let name = name.ok_or_else(|| format!("{} has no coefficient to be taken over", source.effect.title()))?;
-        let (dofs, elements) = labels(&source.place, document.structure());
+        let WrittenPlace { dofs, elements, .. } = source.place.written(document.structure());
         let at = SourceAt { law: source.effect, dofs, elements, state: Some(source.state) };
         let known = SourceAt { state: Some(State::Known), ..at.clone() };
         // What is known there already gets the coefficient on top of its own.
@@ -88,21 +88,8 @@ pub fn take_over(found: &[(usize, f64)], document: &Document) -> Result<Vec<Comm
 
 /// An effect at its place, in the words of the session.
 pub fn effect_at(source: &Source, structure: &Structure) -> EffectAt {
-    let (dofs, elements) = labels(&source.place, structure);
-    let channel = match &source.place {
-        Place::Channel(channel) => Some(channel.clone()),
-        Place::Dofs(_) | Place::Whole(_) => None,
-    };
+    let WrittenPlace { dofs, elements, channel } = source.place.written(structure);
     EffectAt { law: source.effect, dofs, elements, channel }
-}
-
-/// Labels of the DOFs of a place, or its range of elements counted from 1.
-pub fn labels(place: &Place, structure: &Structure) -> (Vec<String>, Option<[i64; 2]>) {
-    match place {
-        Place::Dofs(dofs) => (dofs.iter().map(|&d| structure.label(d).to_owned()).collect(), None),
-        Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
-        Place::Channel(_) => (Vec::new(), None),
-    }
 }
 
 #[cfg(test)]

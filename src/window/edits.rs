@@ -1,6 +1,6 @@
 //! Changes in terms of what is on the screen, said in the words of the session.
 
-use crate::effects::{Effect, Family, Place, Source, State};
+use crate::effects::{Effect, Family, Place, Source, State, WrittenPlace};
 use crate::session::{Command, SourceAt, SourceSpec};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
@@ -94,11 +94,10 @@ impl Shown<'_> {
 
     fn at(&self, i: usize) -> Result<SourceAt, String> {
         let source = self.source(i)?;
-        let (dofs, elements) = match &source.place {
-            Place::Dofs(dofs) => (self.labels(dofs)?, None),
-            Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
-            Place::Channel(_) => return Err("an error of a channel is not a source".to_owned()),
-        };
+        let WrittenPlace { dofs, elements, channel } = source.place.written(self.structure);
+        if channel.is_some() {
+            return Err("an error of a channel is not a source".to_owned());
+        }
         Ok(SourceAt { law: source.effect, dofs, elements, state: Some(source.state) })
     }
 

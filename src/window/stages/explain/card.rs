@@ -7,7 +7,6 @@ use super::{fingerprint, force};
 use crate::diagnosis::result::Suggestion;
 use crate::display::findings;
 use crate::display::format::{self, chance};
-use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
@@ -271,7 +270,7 @@ impl Card<'_> {
 
 /// `Coulomb friction at DOF 15`.
 pub(super) fn name(scene: &Scene<'_>, source: &Source) -> String {
-    words::title(&scene.document.project.structure, source)
+    source.title(&scene.document.project.structure)
 }
 
 /// The symbol of an effect between its ends, with the ground where it is held there.

@@ -10,7 +10,6 @@ use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, is_stuck, sentence_of};
 use crate::display::format::in_words;
-use crate::display::words::at;
 use crate::display::{format, words};
 use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
@@ -286,7 +285,7 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
     let structure = &scene.document.project.structure;
     for source in excluded {
         ui.horizontal(|ui| {
-            let name = format!("{} {}", words::effect(source.effect), at(structure, &source.place));
+            let name = source.phrase(structure);
             ui.label(RichText::new(tr(name)).strikethrough().color(ui.palette().weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui.button(t!("Take back")).clicked() {

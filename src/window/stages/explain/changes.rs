@@ -3,8 +3,6 @@
 use super::cards;
 use super::deed::Deed;
 use super::scene::Scene;
-use crate::display::words;
-use crate::display::words::at;
 use crate::effects::{Source, State};
 use crate::identify::Outcome;
 use crate::session::corrections::adopt;
@@ -57,7 +55,7 @@ pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Res
 
 /// `Coulomb friction at DOF 7`.
 fn named(document: &Document, source: &Source) -> String {
-    format!("{} {}", words::effect(source.effect), at(&document.project.structure, &source.place))
+    source.phrase(&document.project.structure)
 }
 
 /// Puts an effect into the model.

@@ -23,8 +23,7 @@ pub(crate) mod switches;
 
 use crate::diagnosis::result::Verdict;
 use crate::display::findings::{RunSpread, is_detuned, is_stuck, spread_of_runs};
-use crate::display::words::at;
-use crate::display::{format, words};
+use crate::display::format;
 use crate::session::validation::only_records;
 use crate::window::document::Document;
 use crate::window::explained::ledger::Ledger;
@@ -174,5 +173,5 @@ fn best_guess(document: &Document, explained: &Explained) -> String {
     let (suggestions, standing) = ranking::ranked(document, explained);
     let Some(source) = suggestions.first().map(|(s, _)| &s.added.source) else { return String::new() };
     let so_far = if standing == Standing::Final { "" } else { " so far" };
-    format!(" Best guess{so_far}: {} {}.", words::effect(source.effect), at(&document.project.structure, &source.place))
+    format!(" Best guess{so_far}: {}.", source.phrase(&document.project.structure))
 }
