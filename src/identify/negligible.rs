@@ -12,6 +12,7 @@ use super::solve::Fit;
 use super::state::IdentificationState;
 use super::system::System;
 use crate::balance::Weights;
+use crate::math::numerals::counted;
 use crate::math::subsets::RankedSet;
 
 /// Share of the energy of a run that a source must carry in one of them at least.
@@ -33,10 +34,9 @@ pub(super) fn without_negligible(
     let smaller = rankings[..accepted].iter().position(|ranking| ranking.best().columns == kept)?;
     let names: Vec<String> = negligible.iter().map(|&j| problem.columns[j].phrase(problem.structure)).collect();
     let reason = format!(
-        "{} source{}; {} would bring the residual nearer to the noise, but carries less than 0.5 % of the energy in every run, \
+        "{}; {} would bring the residual nearer to the noise, but carries less than 0.5 % of the energy in every run, \
          less than model and sensors are true to",
-        kept.len(),
-        if kept.len() == 1 { "" } else { "s" },
+        counted(kept.len(), "source"),
         names.join(" with ")
     );
     Some((smaller, reason))
