@@ -6,8 +6,8 @@ use crate::effects::Source;
 pub(crate) use crate::effects::wording::capital;
 pub(crate) use crate::math::numerals::counted;
 use crate::measurement::{Flag, Quantity, Run};
-use crate::structure::beam::Supports;
 use crate::structure::StructureKind;
+use crate::structure::beam::Supports;
 
 /// The name of a parameter for readers: `Loss stiffness`; a single letter stays what it is.
 pub fn parameter(name: &str) -> String {
