@@ -4,7 +4,7 @@ use super::arguments::Diagnose;
 use super::corrected::{corrected, correction, is_telling, listed};
 use super::mended_first::mended_first;
 use super::run_flags::{self, flags};
-use super::table::{number, table};
+use super::table::{number, table, with_deviation};
 use super::{channel_faults, identified, run_differences, source_json};
 use crate::control::Control;
 use crate::diagnosis::channels::Fault;
@@ -67,21 +67,21 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if let Some(mended) = mended {
         mended.before(&project.sources, &mut diagnosis, &control)?;
     }
-    let rival = if taken.is_empty() { identified::Rival::of(&project, &diagnosis, &control) } else { None };
+    let alternative = if taken.is_empty() { identified::Alternative::of(&project, &diagnosis, &control) } else { None };
     if arguments.json {
         let mut document = document(&project, &diagnosis);
         document["error_applied"] = json!(left_in_file);
         document["run_differences"] = json!(differences);
-        document["identify_explains"] = json!(rival.map(|rival| rival.document(&project)));
+        document["identify_explains"] = json!(alternative.map(|alternative| alternative.document(&project)));
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
     let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
-    let rival = rival.map_or_else(String::new, |rival| rival.words(&project));
+    let alternative = alternative.map_or_else(String::new, |alternative| alternative.words(&project));
     let differences = run_differences::text(&differences);
-    Ok(format!("{}{differences}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
+    Ok(format!("{}{differences}{alternative}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.
@@ -258,8 +258,8 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
 fn force_gain(diagnosis: &Diagnosis) -> String {
     as_force_gain(&diagnosis.corrections).filter(is_telling).map_or_else(String::new, |gain| {
         format!(
-            "  one factor on all mass and all stiffness is as well a force channel that reads {:.4} +- {:.4} times the force: check its calibration\n",
-            gain.factor, gain.deviation
+            "  one factor on all mass and all stiffness is as well a force channel that reads {} times the force: check its calibration\n",
+            with_deviation(gain.factor, gain.deviation)
         )
     })
 }

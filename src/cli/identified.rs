@@ -62,7 +62,7 @@ pub(super) fn identify_known(
 /// What `identify` finds among the candidates of a project, where it explains the runs at least as well as the first suggestion
 /// of a search that did not take it as known: several sources of the law that a project asks for then are as likely as one of
 /// another law, which fewer parameters speak for.
-pub(super) struct Rival {
+pub(super) struct Alternative {
     sources: Vec<Source>,
     /// Error of the model with them, relative.
     error: f64,
@@ -70,8 +70,8 @@ pub(super) struct Rival {
     suggested: f64,
 }
 
-impl Rival {
-    /// The rival of a diagnosis that names a missing effect; none where `identify` does not reach the noise or explains less.
+impl Alternative {
+    /// The alternative to a diagnosis that names a missing effect; none where `identify` does not reach the noise or explains less.
     pub(super) fn of(project: &Project, diagnosis: &Diagnosis, control: &Control) -> Option<Self> {
         let suggested = diagnosis.suggestions.first()?.error_after;
         if !matches!(diagnosis.verdict, Verdict::Missing | Verdict::Undecided) || only_records(project) {
@@ -84,8 +84,8 @@ impl Rival {
         let named = |source: &Source| {
             diagnosis.suggestions.iter().any(|s| s.probability > NAMED && s.added.source.is_same(source))
         };
-        let rivals = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
-        rivals.then_some(Self { sources, error, suggested })
+        let is_as_good = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
+        is_as_good.then_some(Self { sources, error, suggested })
     }
 
     pub(super) fn document(&self, project: &Project) -> Value {

@@ -86,10 +86,7 @@ fn identified(content: &Content<'_>, outcome: &Outcome) -> String {
     let most = outcome.sources.iter().max_by(|a, b| a.energy_percent.total_cmp(&b.energy_percent));
     let largest = most.and_then(|e| {
         let share = format::percent(0.01 * e.energy_percent);
-        Some(format!(
-            "; the largest share is that of {}, {share}",
-            p.sources.get(e.source)?.title(&p.structure)
-        ))
+        Some(format!("; the largest share is that of {}, {share}", p.sources.get(e.source)?.title(&p.structure)))
     });
     format!(
         "{} {verb} the dissipated energy to {}{}.",

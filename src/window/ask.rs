@@ -4,9 +4,9 @@ use super::commands::Command;
 use super::edits::Edit;
 use super::files::Pick;
 use super::frame::panes::Pane;
-use super::importing::destination::Wish as ImportWish;
+use super::importing::destination::ImportAction;
 use super::leaving::Changes;
-use super::report_choice::Wish;
+use super::report_choice::ReportRequest;
 use super::schematic::gesture::Intent;
 use super::stages::explain::deed::Deed;
 use super::view::Stage;
@@ -38,7 +38,7 @@ pub enum Ask {
     /// Measurements, and files of a model, to import.
     Import(Vec<PathBuf>),
     /// Something on the page of an import.
-    Importing(ImportWish),
+    Importing(ImportAction),
     /// Another name for the project.
     SaveAs(PathBuf),
     /// What was identified in a format; where to, is asked.
@@ -60,7 +60,7 @@ pub enum Ask {
     /// Files that were chosen in a dialog of the window.
     Picked(Pick, Vec<PathBuf>),
     /// The report, as decided in its dialog; where to, is asked.
-    Report(Box<Wish>),
+    Report(Box<ReportRequest>),
     /// Say why something cannot be done.
     Refuse(String),
     /// Close the message.

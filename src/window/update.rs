@@ -177,7 +177,7 @@ impl App {
             Ask::New(template) => self.leave(ctx, Leave::New(template)),
             Ask::Leave(changes) => self.left(ctx, changes),
             Ask::Import(files) => self.import(ctx, &files),
-            Ask::Importing(wish) => self.import_wish(ctx, wish),
+            Ask::Importing(action) => self.act_on_import(ctx, action),
             Ask::SaveAs(path) => self.save_as(&path),
             Ask::ExportAs(format) => self.pick(ctx, Pick::Export(format)),
             Ask::Export(format, path) => self.export(ctx, format, path),
@@ -187,7 +187,7 @@ impl App {
             Ask::Explain(deed) => self.explain(ctx, deed),
             Ask::Pick(pick) => self.pick(ctx, pick),
             Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
-            Ask::Report(wish) => self.want_report(ctx, *wish),
+            Ask::Report(request) => self.want_report(ctx, *request),
             Ask::Refuse(why) => self.fail(why),
             Ask::Dismiss => self.message = None,
         }

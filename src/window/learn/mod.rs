@@ -12,6 +12,7 @@ use super::plots::show::Stack;
 use super::theme::{Palette, space};
 use super::widgets::UiExt;
 use crate::display::{format, words};
+use crate::effects::Effect;
 use crate::plots::figure::Figure;
 use crate::response::portrait::Portrait;
 use crate::window::language::{numbers, t, tr};

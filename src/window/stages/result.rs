@@ -261,7 +261,7 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
                 .on_hover_text(t!("Columns are separated by tabs, as spreadsheets want them."))
                 .clicked()
             {
-                tabled::give(ui.ctx(), "Values", tabled::Wish::Copy, tables::coefficients(p, &outcome));
+                tabled::give(ui.ctx(), "Values", tabled::TableAction::Copy, tables::coefficients(p, &outcome));
             }
         });
     });

@@ -165,7 +165,7 @@ impl Card<'_> {
     }
 
     /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.
-    fn rivals(&self, ui: &mut Ui) {
+    fn alternatives(&self, ui: &mut Ui) {
         let own = self.suggestion.added.source.parameters.len();
         let all = self.suggestion.indistinguishable_from.iter();
         let (needless, equal): (Vec<&Source>, Vec<&Source>) = all.partition(|o| o.parameters.len() > own);
@@ -189,10 +189,10 @@ impl Card<'_> {
         Gauge { before, after, held_out, floor }.show(ui);
         self.buttons(ui, on_trial, asks);
         if self.is_provisional() {
-            ui.hint("Left-out runs, rivals and fingerprint follow when the search has ended.");
+            ui.hint("Left-out runs, alternatives and fingerprint follow when the search has ended.");
             return;
         }
-        self.rivals(ui);
+        self.alternatives(ui);
         force::show(ui, self.scene, Some(&s.added.source));
         self.fingerprint(ui);
         for sentence in &s.evidence {

@@ -15,7 +15,7 @@ use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;
 use crate::window::app::Ask;
-use crate::window::explained::{HOPELESS, Standing};
+use crate::window::explained::{Standing, WITHOUT_DAMPING};
 use crate::window::language::{t, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -117,7 +117,7 @@ fn so_far(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) 
 /// Whether the model is so far from the data that it lacks its damping altogether.
 fn far_off(scene: &Scene<'_>) -> bool {
     let comparison = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
-    comparison.is_some_and(|c| c.error > HOPELESS)
+    comparison.is_some_and(|c| c.error > WITHOUT_DAMPING)
 }
 
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {

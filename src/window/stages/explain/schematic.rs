@@ -41,7 +41,8 @@ pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &
         let told = format!("{verb}: {}", source.phrase(&document.project.structure));
         caption = error.into_iter().chain([told]).collect::<Vec<_>>().join(SEPARATOR);
     }
-    let scene = suggested.and_then(|s| with(scene, s, &document.project.structure)).map_or_else(|| Arc::clone(scene), Arc::new);
+    let scene =
+        suggested.and_then(|s| with(scene, s, &document.project.structure)).map_or_else(|| Arc::clone(scene), Arc::new);
     Errors { scene, shares, caption }
 }
 
