@@ -8,7 +8,7 @@ use super::importing::destination::ImportAction;
 use super::leaving::Changes;
 use super::report_choice::ReportRequest;
 use super::schematic::gesture::Intent;
-use super::stages::explain::deed::Deed;
+use super::stages::explain::request::Request;
 use super::view::Stage;
 use crate::exchange::export::Format;
 use std::path::PathBuf;
@@ -54,7 +54,7 @@ pub enum Ask {
     /// Open or close a pane of the stage.
     Pane(Pane, bool),
     /// Something in the stage Explain.
-    Explain(Deed),
+    Explain(Request),
     /// A dialog for a file.
     Pick(Pick),
     /// Files that were chosen in a dialog of the window.

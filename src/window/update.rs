@@ -11,7 +11,7 @@ use super::language::{self, Language};
 use super::leaving::Leave;
 use super::opened::Opened;
 use super::schematic::gesture::Intent;
-use super::stages::explain::deed::Deed;
+use super::stages::explain::request::Request;
 use super::theme::{Palette, space};
 use super::view::Stage;
 use super::{commands, frame, importing, learn, stages};
@@ -184,7 +184,7 @@ impl App {
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
-            Ask::Explain(deed) => self.explain(ctx, deed),
+            Ask::Explain(request) => self.explain(ctx, request),
             Ask::Pick(pick) => self.pick(ctx, pick),
             Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
             Ask::Report(request) => self.want_report(ctx, *request),
@@ -193,16 +193,16 @@ impl App {
         }
     }
 
-    /// Does a deed of the stage Explain: what it changes in the project, then what is looked at.
-    fn explain(&mut self, ctx: &Context, deed: Deed) {
+    /// Does what is requested in the stage Explain: what it changes in the project, then what is looked at.
+    fn explain(&mut self, ctx: &Context, request: Request) {
         let Some(document) = &mut self.document else { return };
-        let change = stages::explain::changes::change(&deed, document, &self.derived);
-        if let Deed::Return(step) = deed
+        let change = stages::explain::changes::change(&request, document, &self.derived);
+        if let Request::Return(step) = request
             && stages::explain::go_back(document, &self.derived.explained.ledger, step)
         {
             self.view.source = None;
         }
-        stages::explain::look_on(deed, &mut self.view, &mut self.derived.explained);
+        stages::explain::look_on(request, &mut self.view, &mut self.derived.explained);
         match change {
             Ok(Some(change)) => self.edit_and_say(ctx, &change.edit, change.said),
             Ok(None) => {}

@@ -1,7 +1,7 @@
 //! One suggestion: symbol, law and place, size, probability, error before and after, evidence, fingerprint, buttons.
 
-use super::deed::Deed;
 use super::gauge::Gauge;
+use super::request::Request;
 use super::scene::Scene;
 use super::{fingerprint, force};
 use crate::diagnosis::result::Suggestion;
@@ -252,17 +252,17 @@ impl Card<'_> {
         ui.horizontal_wrapped(|ui| {
             let tip = "Shows the map and the curves as they would be; nothing is saved.";
             if ui.add(egui::Button::new(t!("Try")).selected(on_trial)).on_hover_text(tr(tip)).clicked() {
-                asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
+                asks.push(Ask::Explain(if on_trial { Request::Stop } else { Request::Try(source.clone()) }));
             }
             let tip = "Puts the effect into the model as known; undo takes it back.";
             let wait = "Its size is not final: it can be added when the search has ended. Try shows what it would do.";
             let add = ui.add_enabled_ui(!self.is_provisional(), |ui| ui.primary("Add")).inner;
             if add.on_hover_text(tr(tip)).on_disabled_hover_text(tr(wait)).clicked() {
-                asks.push(Ask::Explain(Deed::Add(source.clone())));
+                asks.push(Ask::Explain(Request::Add(source.clone())));
             }
             let tip = "Rules this effect out at this place and searches for what else it could be; undo takes it back.";
             if ui.button(t!("Not this")).on_hover_text(tr(tip)).clicked() {
-                asks.push(Ask::Explain(Deed::Exclude(source.clone())));
+                asks.push(Ask::Explain(Request::Exclude(source.clone())));
             }
         });
     }

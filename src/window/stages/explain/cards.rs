@@ -1,8 +1,8 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
-use super::deed::Deed;
 use super::look::Look;
 use super::ranking::{open, ranked};
+use super::request::Request;
 use super::scene::Scene;
 use super::{card, channels, force, limit};
 use crate::diagnosis::Diagnosis;
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
             ui.horizontal(|ui| {
                 ui.label(t!("The search was cancelled."));
                 if ui.button(t!("Search again")).clicked() {
-                    asks.push(Ask::Explain(Deed::Retry));
+                    asks.push(Ask::Explain(Request::Retry));
                 }
             });
             so_far(ui, scene, look, asks);
@@ -59,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
         Some(Err(error)) => {
             ui.colored_label(ui.palette().error, tr(error));
             if ui.button(t!("Search again")).clicked() {
-                asks.push(Ask::Explain(Deed::Retry));
+                asks.push(Ask::Explain(Request::Retry));
             }
         }
         Some(Ok(diagnosis)) => {
@@ -76,10 +76,10 @@ fn waiting(ui: &mut Ui, identified: bool, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let tip = "Makes the identified sources known at their values, and searches for what is missing beside them.";
         if identified && ui.primary("Add them and search").on_hover_text(tr(tip)).clicked() {
-            asks.push(Ask::Explain(Deed::TakeOver));
+            asks.push(Ask::Explain(Request::TakeOver));
         }
         if ui.button(t!("Search anyway")).clicked() {
-            asks.push(Ask::Explain(Deed::Search));
+            asks.push(Ask::Explain(Request::Search));
         }
     });
 }
@@ -192,7 +192,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
         let tip = "Multiplies what the project states by these factors. Undo takes it back.";
         let can = !adopted.commands.is_empty();
         if ui.add_enabled(can, Button::new(t!("Correct the model"))).on_hover_text(tr(tip)).clicked() {
-            asks.push(Ask::Explain(Deed::Correct));
+            asks.push(Ask::Explain(Request::Correct));
         }
         if !adopted.left.is_empty() {
             let left: Vec<String> = adopted
@@ -289,7 +289,7 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
             ui.label(RichText::new(tr(name)).strikethrough().color(ui.palette().weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui.button(t!("Take back")).clicked() {
-                    asks.push(Ask::Explain(Deed::Restore(source.clone())));
+                    asks.push(Ask::Explain(Request::Restore(source.clone())));
                 }
             });
         });

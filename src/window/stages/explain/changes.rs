@@ -1,7 +1,7 @@
-//! What a deed of the stage changes in the project, and what is said of it.
+//! What a request of the stage changes in the project, and what is said of it.
 
 use super::cards;
-use super::deed::Deed;
+use super::request::Request;
 use super::scene::Scene;
 use crate::effects::{Source, State};
 use crate::identify::Outcome;
@@ -27,29 +27,29 @@ impl Change {
     }
 }
 
-/// What a deed changes in the project; nothing where it only changes what is looked at or searched.
+/// What a request changes in the project; nothing where it only changes what is looked at or searched.
 ///
 /// # Errors
 /// One sentence that says why it cannot be done.
-pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
+pub(crate) fn change(request: &Request, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
     let scene = &Scene { document, explained: &derived.explained };
-    match deed {
-        Deed::Add(source) => add(scene, source),
-        Deed::Exclude(source) => Ok(Some(rule_out(document, source))),
-        Deed::Restore(source) => Ok(Some(allow(document, source))),
-        Deed::TakeOver => take_over(document, derived.known_outcome(document)),
-        Deed::Correct => Ok(correct(scene)),
-        Deed::CorrectOne(k) => Ok(correct_one(scene, *k)),
-        Deed::CorrectSensor { channel, gain, delay } => Ok(Some(correct_sensor(document, channel, [*gain, *delay]))),
-        Deed::Mend(k) => mend(scene, *k),
-        Deed::Try(_)
-        | Deed::Stop
-        | Deed::Return(_)
-        | Deed::Retry
-        | Deed::Hurry
-        | Deed::Limit(_)
-        | Deed::SearchOn
-        | Deed::Search => Ok(None),
+    match request {
+        Request::Add(source) => add(scene, source),
+        Request::Exclude(source) => Ok(Some(rule_out(document, source))),
+        Request::Restore(source) => Ok(Some(allow(document, source))),
+        Request::TakeOver => take_over(document, derived.known_outcome(document)),
+        Request::Correct => Ok(correct(scene)),
+        Request::CorrectOne(k) => Ok(correct_one(scene, *k)),
+        Request::CorrectSensor { channel, gain, delay } => Ok(Some(correct_sensor(document, channel, [*gain, *delay]))),
+        Request::Mend(k) => mend(scene, *k),
+        Request::Try(_)
+        | Request::Stop
+        | Request::Return(_)
+        | Request::Retry
+        | Request::Hurry
+        | Request::Limit(_)
+        | Request::SearchOn
+        | Request::Search => Ok(None),
     }
 }
 
