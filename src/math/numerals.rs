@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn zeros_at_the_end_are_left_out_and_what_is_rounded_has_no_more_digits() {
-        let written = [2560.0, 0.0125, -3.0e-7, 1234.567_89, 200.0, 0.0].map(|value| compact(value, 6));
+        let written = [2560.0, 0.0125, -3.0e-7, 1_234.567_89, 200.0, 0.0].map(|value| compact(value, 6));
         assert_eq!(written, ["2560", "0.0125", "-3e-7", "1234.57", "200", "0"]);
         assert_eq!(rounded(1000.0 * 0.56, 12), 560.0);
         assert!(rounded(f64::NAN, 12).is_nan());
