@@ -4,7 +4,7 @@ use super::arguments::ChangeStates;
 use super::source_json;
 use super::table::{number, table};
 use crate::control::Control;
-use crate::display::{change as said, words};
+use crate::display::change as said;
 use crate::exchange::{Project, project::load};
 use crate::identify::change::{LEVEL, ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, compare, states};
@@ -43,8 +43,8 @@ fn text(Compared { titles, structure, change }: &Compared) -> String {
     let head = ["source", "first", "+-", "second", "+-", "difference", "+-", "chance", ""];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for s in &change.sources {
-        let place = words::place(structure, &s.source.place);
-        let name = format!("{} {place}, {}", words::effect(s.source.effect), said::unit(s));
+        let place = s.source.place.cell(structure);
+        let name = format!("{} {place}, {}", s.source.effect.noun(), said::unit(s));
         rows.push(row(name, &s.coefficient, 1.0));
     }
     out.push_str(&table(&rows));
@@ -73,7 +73,7 @@ fn document(Compared { titles, structure, change }: &Compared) -> Value {
                "chance": p.chance, "changed": p.is_significant()})
     };
     let source = |s: &SourceChange| {
-        let mut entry = source_json::place(&s.source, structure);
+        let mut entry = source_json::of_law(&s.source, structure);
         entry.insert("coefficient".into(), pair(&s.coefficient));
         entry.insert("unit".into(), json!(said::unit(s)));
         entry.insert("energy_percent".into(), json!(s.energy_percent));

@@ -3,10 +3,13 @@
 use super::arguments::Contents as Arguments;
 use crate::exchange::importing::files::listed;
 use crate::exchange::mapping::stepped;
+use crate::math::numerals::compact;
 use anyhow::ensure;
 use dashpot_datafiles::{Channel, DataFile, Note, Number, Set, open};
 use serde_json::{Map, Value, json};
 
+/// Digits of the first values and of the sampling rate.
+const DIGITS: usize = 6;
 /// Most channels of a set in a listing for people.
 const MOST_LISTED: usize = 40;
 
@@ -119,7 +122,7 @@ fn tree(file: &DataFile) -> String {
 fn line(channel: &Channel, axis_unit: &str, width: usize) -> String {
     let unit = if channel.unit.is_empty() { String::new() } else { format!("[{}]", channel.unit) };
     let step = match channel.axis.step() {
-        Some(step) if axis_unit == "s" => format!(", step {step} s ({} Hz)", short(1.0 / step)),
+        Some(step) if axis_unit == "s" => format!(", step {step} s ({} Hz)", compact(1.0 / step, DIGITS)),
         Some(step) => format!(", step {step} {axis_unit}"),
         None => String::new(),
     };
@@ -127,22 +130,13 @@ fn line(channel: &Channel, axis_unit: &str, width: usize) -> String {
         .first
         .iter()
         .map(|number| match number {
-            Number::Real(value) => short(*value),
-            Number::Complex([re, im]) => {
-                format!("{}{}i", short(*re), if *im < 0.0 { short(*im) } else { format!("+{}", short(*im)) })
+            Number::Real(value) => compact(*value, DIGITS),
+            Number::Complex(parts) => {
+                let [re, im] = parts.map(|part| compact(part, DIGITS));
+                format!("{re}{}{im}i", if im.starts_with('-') { "" } else { "+" })
             }
         })
         .collect();
     let dots = if channel.count > channel.first.len() as u64 { ", …" } else { "" };
     format!("{:width$}  {unit:8} {} values{step}: {}{dots}", channel.name, channel.count, first.join(", "))
-}
-
-/// A number with at most six digits.
-fn short(value: f64) -> String {
-    if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
-        return format!("{value:.5e}");
-    }
-    let digits = if value == 0.0 { 0 } else { (5 - value.abs().log10().floor() as i32).max(0) as usize };
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -1,6 +1,7 @@
 //! Corrections of what the model states, as JSON and in words.
 
-use super::named_sources::{labels, named};
+use super::source_json;
+use super::table::{number, with_deviation};
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings;
@@ -16,7 +17,7 @@ const LITTLE: f64 = 1e-3;
 /// A correction of what the model states: `what`, its place or mode, and the factor on it.
 pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
     let mut map = Map::new();
-    let dofs = |dofs: &[usize]| json!(labels(&project.structure, &Place::Dofs(dofs.to_vec())));
+    let dofs = |dofs: &[usize]| json!(Place::Dofs(dofs.to_vec()).written(&project.structure).dofs);
     let elements = |range: &[usize; 2]| json!(range.map(|element| element + 1));
     let (what, key, place) = match &correction.parameter {
         UpdatingParameter::Structure(part) => match part {
@@ -39,7 +40,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
         },
         UpdatingParameter::Known(index) => {
             if let Some(source) = problem(project).known().get(*index) {
-                map.extend(named(&project.structure, source));
+                map.extend(source_json::of_effect(source, &project.structure));
             }
             ("source", "", Value::Null)
         }
@@ -68,7 +69,7 @@ pub(super) fn corrected(project: &Project, correction: &Correction) -> String {
         _ => None,
     };
     let spring = spring.unwrap_or_default();
-    format!("  {what}{spring}: times {:.4} +- {:.4}", correction.factor, correction.deviation)
+    format!("  {what}{spring}: times {}", with_deviation(correction.factor, correction.deviation))
 }
 
 /// Whether a correction is more than its deviation and [`LITTLE`], or no number.
@@ -95,7 +96,7 @@ pub(super) fn listed(project: &Project, corrections: &[Correction]) -> String {
 fn spring_of(structure: &Structure, held: HeldDof, factor: f64) -> Option<String> {
     let unit = if held.dof % 2 == 1 { "N m/rad" } else { "N/m" };
     let stiffness = structure.stiffness_at(held).filter(|_| factor < 1.0)?;
-    Some(format!(" (a spring of {:.3e} {unit})", stiffness * factor / (1.0 - factor)))
+    Some(format!(" (a spring of {} {unit})", number(stiffness * factor / (1.0 - factor))))
 }
 
 #[cfg(test)]

@@ -3,15 +3,13 @@
 use super::arguments::Diagnose;
 use super::corrected::{corrected, correction, is_telling, listed};
 use super::mended_first::mended_first;
-use super::named_sources::{named, with_values};
 use super::run_flags::{self, flags};
-use super::table::{number, table};
-use super::{channel_faults, identified, run_differences};
+use super::table::{number, table, with_deviation};
+use super::{channel_faults, identified, run_differences, source_json};
 use crate::control::Control;
 use crate::diagnosis::result::{CommonFactor, Diagnosis, Suggestion, TestKind};
 use crate::diagnosis::updating::correction::as_force_gain;
 use crate::display::findings;
-use crate::display::words::title;
 use crate::effects::Source;
 use crate::exchange::Project;
 use crate::exchange::project::load;
@@ -69,21 +67,21 @@ pub(super) fn run(arguments: &Diagnose) -> anyhow::Result<String> {
     if let Some(mended) = mended {
         mended.before(&project.sources, &mut diagnosis, &control)?;
     }
-    let rival = if taken.is_empty() { identified::Rival::of(&project, &diagnosis, &control) } else { None };
+    let alternative = if taken.is_empty() { identified::Alternative::of(&project, &diagnosis, &control) } else { None };
     if arguments.json {
         let mut document = document(&project, &diagnosis);
         document["error_applied"] = json!(left_in_file);
         document["run_differences"] = json!(differences);
-        document["identify_explains"] = json!(rival.map(|rival| rival.document(&project)));
+        document["identify_explains"] = json!(alternative.map(|alternative| alternative.document(&project)));
         if !taken.is_empty() {
             document["identified"] = identified::document(&project, &taken);
         }
         return Ok(format!("{}\n", serde_json::to_string_pretty(&document)?));
     }
     let written = arguments.apply.as_ref().map_or_else(String::new, |out| format!("\nWritten: {}.\n", out.display()));
-    let rival = rival.map_or_else(String::new, |rival| rival.words(&project));
+    let alternative = alternative.map_or_else(String::new, |alternative| alternative.words(&project));
     let differences = run_differences::text(&differences);
-    Ok(format!("{}{differences}{rival}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
+    Ok(format!("{}{differences}{alternative}{}{written}", text(&project, &diagnosis), run_flags::text(&project)))
 }
 
 /// A project, and what was identified and taken as known beside what its file says.
@@ -97,15 +95,15 @@ struct Written<'a> {
 /// The first suggestions while the search goes on.
 fn first_words(structure: &Structure, found: &[Suggestion]) -> String {
     let line = |s: &Suggestion| {
-        format!("looking into {}: error {} %\n", title(structure, &s.added.source), number(100.0 * s.error_after))
+        format!("looking into {}: error {} %\n", s.added.source.title(structure), number(100.0 * s.error_after))
     };
     found.iter().take(3).map(line).collect()
 }
 
 fn suggestion(structure: &Structure, suggestion: &Suggestion) -> Value {
-    let mut map = with_values(structure, &suggestion.added);
+    let mut map = source_json::added(&suggestion.added, structure);
     let alike: Vec<Value> =
-        suggestion.indistinguishable_from.iter().map(|s| Value::Object(named(structure, s))).collect();
+        suggestion.indistinguishable_from.iter().map(|s| Value::Object(source_json::of_effect(s, structure))).collect();
     map.insert("error_after".into(), json!(suggestion.error_after));
     map.insert("held_out_error_after".into(), json!(suggestion.held_out_error_after));
     map.insert("probability".into(), json!(suggestion.probability));
@@ -121,7 +119,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
         "findings": run_flags::findings(&run.findings)})
     };
     let step = |step: &crate::diagnosis::result::Step| {
-        let added: Vec<Value> = step.added.iter().map(|a| Value::Object(with_values(structure, a))).collect();
+        let added: Vec<Value> = step.added.iter().map(|a| Value::Object(source_json::added(a, structure))).collect();
         json!({"added": added, "error": step.error, "misfit": step.misfit})
     };
     let test = |test: &crate::diagnosis::result::NextTest| {
@@ -229,7 +227,7 @@ fn suggestions_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String 
         let values: Vec<String> =
             list.map(|(p, v)| format!("{} {} {}", p.name, number(*v), p.unit).trim_end().to_owned()).collect();
         let [probability, error] = [s.probability, s.error_after].map(|x| number(100.0 * x));
-        rows.push(vec![title(structure, &s.added.source), probability, error, values.join(", ")]);
+        rows.push(vec![s.added.source.title(structure), probability, error, values.join(", ")]);
     }
     let evidence: String = first.evidence.iter().map(|sentence| format!("  {sentence}\n")).collect();
     format!("\n{}{evidence}", table(&rows))
@@ -239,7 +237,7 @@ fn suggestions_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String 
 fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
     let mut lines = "\nsteps\n".to_owned();
     for (k, step) in diagnosis.steps.iter().enumerate() {
-        let names: Vec<String> = step.added.iter().map(|a| title(structure, &a.source)).collect();
+        let names: Vec<String> = step.added.iter().map(|a| a.source.title(structure)).collect();
         let without = if k == 0 { "the model as it is" } else { "the model corrected" };
         let what = if names.is_empty() { without.to_owned() } else { names.join(", ") };
         lines.push_str(&format!("  {} %  {what}\n", number(100.0 * step.error)));
@@ -260,8 +258,8 @@ fn steps_in_words(structure: &Structure, diagnosis: &Diagnosis) -> String {
 fn force_gain(diagnosis: &Diagnosis) -> String {
     as_force_gain(&diagnosis.corrections).filter(is_telling).map_or_else(String::new, |gain| {
         format!(
-            "  one factor on all mass and all stiffness is as well a force channel that reads {:.4} +- {:.4} times the force: check its calibration\n",
-            gain.factor, gain.deviation
+            "  one factor on all mass and all stiffness is as well a force channel that reads {} times the force: check its calibration\n",
+            with_deviation(gain.factor, gain.deviation)
         )
     })
 }

@@ -1,7 +1,7 @@
 //! Takes over what `identify` finds before a model is compared: a project whose damping is still to be found has a model
 //! without any, and nothing limits its response at resonance.
 
-use super::named_sources::labels;
+use super::source_json;
 use super::table::number;
 use crate::control::Control;
 use crate::diagnosis::compare;
@@ -62,7 +62,7 @@ pub(super) fn identify_known(
 /// What `identify` finds among the candidates of a project, where it explains the runs at least as well as the first suggestion
 /// of a search that did not take it as known: several sources of the law that a project asks for then are as likely as one of
 /// another law, which fewer parameters speak for.
-pub(super) struct Rival {
+pub(super) struct Alternative {
     sources: Vec<Source>,
     /// Error of the model with them, relative.
     error: f64,
@@ -70,8 +70,8 @@ pub(super) struct Rival {
     suggested: f64,
 }
 
-impl Rival {
-    /// The rival of a diagnosis that names a missing effect; none where `identify` does not reach the noise or explains less.
+impl Alternative {
+    /// The alternative to a diagnosis that names a missing effect; none where `identify` does not reach the noise or explains less.
     pub(super) fn of(project: &Project, diagnosis: &Diagnosis, control: &Control) -> Option<Self> {
         let suggested = diagnosis.suggestions.first()?.error_after;
         if !matches!(diagnosis.verdict, Verdict::Missing | Verdict::Undecided) || only_records(project) {
@@ -84,8 +84,8 @@ impl Rival {
         let named = |source: &Source| {
             diagnosis.suggestions.iter().any(|s| s.probability > NAMED && s.added.source.is_same(source))
         };
-        let rivals = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
-        rivals.then_some(Self { sources, error, suggested })
+        let is_as_good = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
+        is_as_good.then_some(Self { sources, error, suggested })
     }
 
     pub(super) fn document(&self, project: &Project) -> Value {
@@ -104,11 +104,7 @@ impl Rival {
 
 /// Sources with their places, in words.
 fn names(project: &Project, sources: &[Source]) -> String {
-    let place = |s: &Source| {
-        let labels = labels(&project.structure, &s.place).join("-");
-        if labels.is_empty() { s.effect.to_string() } else { format!("{} at {labels}", s.effect) }
-    };
-    let names: Vec<String> = sources.iter().map(place).collect();
+    let names: Vec<String> = sources.iter().map(|source| source.phrase(&project.structure)).collect();
     if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
 }
 
@@ -121,10 +117,9 @@ fn sentence(project: &Project, taken: &[Source], asked: bool) -> String {
 /// What was taken over, as in the suggestions.
 pub(super) fn document(project: &Project, taken: &[Source]) -> Value {
     let entry = |s: &Source| {
-        let names = s.effect.parameters().iter().map(|p| p.name);
-        let values: serde_json::Map<String, Value> =
-            names.zip(&s.parameters).map(|(name, v)| (name.to_owned(), json!(v))).collect();
-        json!({"effect": s.effect.name(), "dofs": labels(&project.structure, &s.place), "parameters": values})
+        let mut map = source_json::of_effect(s, &project.structure);
+        map.insert("parameters".into(), source_json::parameters(s));
+        Value::Object(map)
     };
     Value::Array(taken.iter().map(entry).collect())
 }

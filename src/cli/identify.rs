@@ -4,7 +4,7 @@ use super::arguments::Identify;
 use super::identify_json::document;
 use super::identify_table::report;
 use super::run_flags;
-use super::table::number;
+use super::table::{number, significant, with_deviation};
 use crate::classical::FrequencyResponses;
 use crate::classical::measured_ratios::{circle_ratios, half_power_ratios};
 use crate::classical::poly_reference::extract;
@@ -77,7 +77,7 @@ pub(super) fn identified(file: &Path, ratios: Option<&Path>) -> anyhow::Result<(
     let ratios = ratios.map_or_else(|| Ok(Vec::new()), |choice| measured(&project, choice, &control))?;
     for r in &ratios {
         let [value, deviation] = [r.ratio, r.deviation].map(|v| 100.0 * v);
-        eprintln!("damping ratio at {:.4} Hz: {value:.4} % +- {deviation:.4} %", r.omega / TAU);
+        eprintln!("damping ratio at {} Hz: {} %", significant(r.omega / TAU, 6), with_deviation(value, deviation));
     }
     let outcome = project.identify(&ratios, &control).with_context(|| file.display().to_string())?;
     Ok((project, outcome))

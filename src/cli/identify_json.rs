@@ -1,6 +1,6 @@
 //! `identify --json`, to the letter of the contract; numbers in SI units and full precision.
 
-use super::source_json::{estimate, place};
+use super::source_json::{estimate, of_law};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
 use crate::identify::{Outcome, SelectionStep};
@@ -101,7 +101,7 @@ fn selection(project: &Project, step: &SelectionStep) -> Value {
         let sources: Vec<Value> = alternative
             .sources
             .iter()
-            .map(|&index| Value::Object(place(&project.sources[index], &project.structure)))
+            .map(|&index| Value::Object(of_law(&project.sources[index], &project.structure)))
             .collect();
         json!({"angle_deg": alternative.angle_deg, "sources": sources})
     });
@@ -136,7 +136,7 @@ fn rows(matrix: &Mat<f64>) -> Value {
 }
 
 fn indistinguishable(project: &Project, outcome: &Outcome) -> Vec<Value> {
-    let named = |index: usize| Value::Object(place(&project.sources[index], &project.structure));
+    let named = |index: usize| Value::Object(of_law(&project.sources[index], &project.structure));
     outcome
         .collinear
         .iter()

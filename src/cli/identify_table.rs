@@ -1,6 +1,6 @@
 //! `identify` for a reader: runs, selection, sources, energy, modes, each a table with units.
 
-use super::table::{digits, number, table};
+use super::table::{number, significant, table};
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
@@ -63,8 +63,8 @@ fn records(project: &Project, outcome: &Outcome) -> String {
         rows.push(vec![
             run.file.clone(),
             run.kind.name().to_owned(),
-            digits(run.time()[0], 4),
-            digits(run.time()[run.len() - 1], 4),
+            significant(run.time()[0], 4),
+            significant(run.time()[run.len() - 1], 4),
             windows.len().to_string(),
             modes,
             sum(|w| w.input_energy),
@@ -94,11 +94,11 @@ fn runs(project: &Project, outcome: &Outcome) -> String {
             .collect();
         rows.push(vec![
             run.file.clone(),
-            digits(run.fit.omega / TAU, 6),
+            significant(run.fit.omega / TAU, 6),
             run.level.map_or("-".to_owned(), |level| level.to_string()),
             energy(found.map(|r| r.input_energy)),
             energy(found.map(|r| r.identified_energy)),
-            digits(100.0 * run.noise_ratio, 2),
+            significant(100.0 * run.noise_ratio, 2),
             flags.join(" "),
         ]);
         for (finding, flag) in run.findings.iter().zip(&flags) {
@@ -115,7 +115,7 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
             if index == outcome.accepted { ">".to_owned() } else { String::new() },
             step.count.to_string(),
             number(step.angle_deg),
-            digits(100.0 * step.relative_error, 3),
+            significant(100.0 * step.relative_error, 3),
             set(project, step),
         ]);
     }
@@ -125,7 +125,7 @@ fn selection(project: &Project, outcome: &Outcome) -> String {
 fn set(project: &Project, step: &SelectionStep) -> String {
     let estimate_in_words = |estimate: &Estimate| {
         let source = &project.sources[estimate.source];
-        format!("{} {} {}", source.effect, source.place.labels(&project.structure), number(estimate.coefficient))
+        format!("{}: {}", source.phrase(&project.structure), number(estimate.coefficient))
     };
     step.sources.iter().map(estimate_in_words).collect::<Vec<_>>().join(", ")
 }
@@ -137,13 +137,13 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
         let source = &project.sources[estimate.source];
         let reference = references.iter().find(|r| r.effect == source.effect && r.place.is_same(&source.place));
         rows.push(vec![
-            source.effect.name().to_owned(),
-            source.place.labels(&project.structure),
+            source.effect.noun().to_owned(),
+            source.place.cell(&project.structure),
             if source.state == State::Known { "known" } else { "identified" }.to_owned(),
             number(estimate.coefficient),
-            if source.state == State::Known { "-".to_owned() } else { digits(estimate.deviation, 2) },
+            if source.state == State::Known { "-".to_owned() } else { significant(estimate.deviation, 2) },
             unit(source).to_owned(),
-            digits(estimate.energy_percent, 3),
+            significant(estimate.energy_percent, 3),
             reference.map_or("-".to_owned(), |r| number(r.coefficient())),
         ]);
     }
@@ -156,9 +156,8 @@ fn sources(project: &Project, outcome: &Outcome) -> String {
     };
     let mut text = format!("Sources\n{}", table(&rows));
     for missing in references.iter().filter(|reference| !found(reference)) {
-        let place = missing.place.labels(&project.structure);
-        let value = number(missing.coefficient());
-        text.push_str(&format!("  reference not found: {} {place} {value} {}\n", missing.effect, unit(missing)));
+        let (name, value) = (missing.phrase(&project.structure), number(missing.coefficient()));
+        text.push_str(&format!("  reference not found: {name}: {value} {}\n", unit(missing)));
     }
     text
 }
@@ -168,10 +167,7 @@ fn unit(source: &Source) -> &'static str {
 }
 
 fn indistinguishable(project: &Project, outcome: &Outcome) -> String {
-    let name = |index: usize| {
-        let source = &project.sources[index];
-        format!("{} {}", source.effect, source.place.labels(&project.structure))
-    };
+    let name = |index: usize| project.sources[index].phrase(&project.structure);
     let lines = outcome.collinear.iter().filter(|group| !group.others.is_empty()).map(|group| {
         let others: Vec<String> = group.others.iter().map(|&(index, _)| name(index)).collect();
         format!("  {} could as well be {}\n", name(group.source), others.join(" or "))
@@ -189,12 +185,12 @@ fn energy(project: &Project, outcome: &Outcome) -> String {
     let mut rest = 0.0;
     for (dof, &percent) in project.structure.dofs().iter().zip(&outcome.results.energy_percent) {
         if percent.abs() >= LEAST_SHARE {
-            rows.push(vec![dof.label.clone(), digits(percent, 3)]);
+            rows.push(vec![dof.label.clone(), significant(percent, 3)]);
         } else {
             rest += percent;
         }
     }
-    rows.push(vec!["others".to_owned(), digits(rest, 3)]);
+    rows.push(vec!["others".to_owned(), significant(rest, 3)]);
     format!("Energy dissipated at each degree of freedom\n{}", table(&rows))
 }
 
@@ -206,9 +202,9 @@ fn modes(outcome: &Outcome) -> String {
     for (index, mode) in outcome.results.modes.iter().take(MOST_MODES).enumerate() {
         rows.push(vec![
             (index + 1).to_string(),
-            digits(mode.frequency_hz, 5),
+            significant(mode.frequency_hz, 5),
             number(mode.damping_ratio),
-            digits(mode.damping_ratio_deviation, 2),
+            significant(mode.damping_ratio_deviation, 2),
             mode.half_power_ratio.map_or("-".to_owned(), number),
         ]);
     }

@@ -2,7 +2,7 @@
 
 use super::arguments::Methods;
 use super::identify::identified;
-use super::table::{digits, table};
+use super::table::{significant, table};
 use crate::classical::FrequencyResponses;
 use crate::classical::incompleteness::{
     Case, Grid, Incompleteness, METHODS, MatrixErrors, incompleteness, known_damping,
@@ -46,10 +46,11 @@ fn report(project: &Project, study: &Incompleteness, of: &str) -> String {
 }
 
 fn row(case: &Case) -> Vec<String> {
-    let error = |found: &Result<MatrixErrors, String>| found.as_ref().map_or("-".to_owned(), |e| digits(e.eps_c, 3));
+    let error =
+        |found: &Result<MatrixErrors, String>| found.as_ref().map_or("-".to_owned(), |e| significant(e.eps_c, 3));
     let mut cells = vec![case.modes.to_string()];
     cells.extend(case.methods.iter().map(error));
-    cells.push(digits(case.eps_p, 3));
+    cells.push(significant(case.eps_p, 3));
     cells
 }
 

@@ -1,7 +1,7 @@
 //! `dashpot methods`: every classical method that the data allow, beside the reference where one is known.
 
 use super::arguments::Methods;
-use super::table::{digits, number, table};
+use super::table::{number, significant, table};
 use crate::classical::ModalData;
 use crate::classical::reference_shapes::{Beside, Match};
 use crate::classical::side_by_side::{Applied, Entry, Ratio, SideBySide, side_by_side};
@@ -40,7 +40,7 @@ fn report(project: &Project, found: &SideBySide) -> String {
     rows.extend(found.entries.iter().filter_map(|e| Some(row(e, e.outcome.as_ref().ok()?, count))));
     let named = |name: &str, value: &dyn Fn(usize) -> Option<f64>| -> Vec<String> {
         let first = [name, "", "", ""].map(str::to_owned);
-        let cell = |mode| value(mode).map_or("-".to_owned(), |v| digits(100.0 * v, 3));
+        let cell = |mode| value(mode).map_or("-".to_owned(), |v| significant(100.0 * v, 3));
         first.into_iter().chain((0..count).map(cell)).collect()
     };
     rows.push(named("spread of the methods, %", &|mode| found.spread.iter().find(|s| s.0 == mode).map(|s| s.1)));
@@ -86,13 +86,13 @@ fn of_other_programs(beside: &[Beside]) -> String {
             .map(str::to_owned)
             .to_vec(),
     ];
-    let hz = |value: f64| digits(value, 5);
-    let percent = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| digits(100.0 * ratio, 3));
+    let hz = |value: f64| significant(value, 5);
+    let percent = |ratio: Option<f64>| ratio.map_or("-".to_owned(), |ratio| significant(100.0 * ratio, 3));
     for Beside { reference, measured, model } in beside {
         let match_cells = |found: &Option<Match>| {
             found
                 .as_ref()
-                .map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), digits(found.mac, 3)])
+                .map_or(["-".to_owned(), "-".to_owned()], |found| [hz(found.frequency_hz), significant(found.mac, 3)])
         };
         let ([ours, mac], [undamped, undamped_mac]) = (match_cells(measured), match_cells(model));
         let ratio = percent(measured.as_ref().and_then(|found| found.damping_ratio));

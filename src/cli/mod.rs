@@ -25,7 +25,6 @@ mod manual;
 mod mended_first;
 mod methods;
 mod moving_base;
-mod named_sources;
 mod play;
 mod plot;
 mod plot_kinds;

@@ -209,8 +209,7 @@ impl Plotter<'_> {
         let o = self.outcome()?;
         let bar = |e: &crate::identify::Estimate| {
             let s = self.p.sources.get(e.source)?;
-            let name =
-                format!("{} {}", words::capital(words::effect(s.effect)), words::place(&self.p.structure, &s.place));
+            let name = format!("{} {}", s.effect.title().to_owned(), s.place.cell(&self.p.structure));
             Some(Bar { name, share: 0.01 * e.energy_percent, colour: self.palette.model })
         };
         let list: Vec<Bar> = o.sources.iter().filter_map(bar).collect();

@@ -8,6 +8,7 @@ use crate::diagnosis::records::amplitude::{AmplitudePoint, Line, line};
 use crate::diagnosis::records::compare::{ModeCurve, OneRecord, RecordPart};
 use crate::exchange::{Project, project::load};
 use crate::measurement::{Quantity, TransientRun};
+use crate::plots::amplitude_curve::slopes;
 use crate::session::validation::compared_with_records;
 use crate::session::workers::Threads;
 use anyhow::{Context, bail};
@@ -152,10 +153,8 @@ fn curve_text(run: &TransientRun, curve: &ModeCurve) -> String {
         text.push_str(&format!("f^2 = {} + {} A^2 (Hz^2)\n", number(l.offset), number(l.slope)));
     }
     if let Some(l) = slope {
-        text.push_str(&format!(
-            "the damping ratio goes with A^{} (-1 dry friction, 0 viscous, 0..1 microslip, 1 drag)\n",
-            number(l.slope)
-        ));
+        let laws: Vec<String> = slopes().into_iter().map(|(law, slope)| format!("{slope} {}", law.noun())).collect();
+        text.push_str(&format!("the damping ratio goes with A^{} ({})\n", number(l.slope), laws.join(", ")));
     }
     text
 }

@@ -1,6 +1,6 @@
 //! What is told of an imported structure: notes of its files, and how a model was reduced.
 
-use super::table::{digits, table};
+use super::table::{significant, table};
 use crate::structure::Structure;
 use crate::structure::reduction::{ModeCheck, Reduction};
 use serde_json::{Value, json};
@@ -35,7 +35,13 @@ pub(super) fn text(structure: &Structure) -> String {
     let head = ["mode", "whole model Hz", "reduced Hz", "error %", "MAC"].map(str::to_owned).to_vec();
     let row = |(r, check): (usize, &ModeCheck)| {
         let percent = format!("{:.1e}", 100.0 * check.frequency_error());
-        vec![(r + 1).to_string(), digits(check.full_hz, 6), digits(check.reduced_hz, 6), percent, digits(check.mac, 5)]
+        vec![
+            (r + 1).to_string(),
+            significant(check.full_hz, 6),
+            significant(check.reduced_hz, 6),
+            percent,
+            significant(check.mac, 5),
+        ]
     };
     let rows: Vec<_> =
         std::iter::once(head).chain(reduction.modes.iter().take(MOST_MODES).enumerate().map(row)).collect();

@@ -1,5 +1,7 @@
 //! Aligned columns of text, and numbers with as many digits as a reader needs.
 
+pub(super) use crate::math::numerals::{significant, with_deviation};
+
 /// Lines of `rows` in columns as wide as their widest cell, two spaces apart; the first row is the head.
 pub(super) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -24,36 +26,14 @@ fn is_number(cell: &str) -> bool {
     cell.starts_with(|c: char| c.is_ascii_digit() || c == '-' && cell.len() > 1)
 }
 
-/// Four significant digits, plain between 0.001 and 99999, else with an exponent.
+/// Four significant digits.
 pub(super) fn number(value: f64) -> String {
-    digits(value, 4)
-}
-
-/// That many significant digits.
-pub(super) fn digits(value: f64, digits: i32) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let magnitude = value.abs().log10().floor() as i32;
-    if (-4..5).contains(&magnitude) {
-        format!("{value:.*}", usize::try_from(digits - 1 - magnitude).unwrap_or(0))
-    } else {
-        format!("{value:.*e}", usize::try_from(digits - 1).unwrap_or(0))
-    }
+    significant(value, 4)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{digits, number, table};
-
-    #[test]
-    fn numbers_keep_their_significant_digits() {
-        assert_eq!(number(0.107_12), "0.1071");
-        assert_eq!(number(12_345.6), "12346");
-        assert_eq!(number(1.0e-7), "1.000e-7");
-        assert_eq!(digits(6.4983, 3), "6.50");
-        assert_eq!(number(0.0), "0");
-    }
+    use super::table;
 
     #[test]
     fn columns_line_up() {

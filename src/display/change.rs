@@ -1,13 +1,13 @@
 //! What changed between two states, in a sentence.
 
-use super::{format, words};
+use super::format;
 use crate::identify::change::{Change, SourceChange};
 use crate::structure::Structure;
 
 /// What a reader takes away: which sources changed and by how much, or that none did.
 pub(crate) fn sentence(structure: &Structure, found: &Change) -> String {
     let source_in_words = |s: &SourceChange| {
-        let name = words::title(structure, &s.source);
+        let name = s.source.title(structure);
         let by = format::with_deviation(s.coefficient.difference, s.coefficient.deviation, unit(s));
         let sign = if s.coefficient.difference > 0.0 { "+" } else { "" };
         let share = relative(s).map_or_else(String::new, |r| format!(" ({r})"));

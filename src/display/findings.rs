@@ -1,7 +1,6 @@
 //! What a diagnosis says, in sentences.
 
 use super::format::{self, in_words};
-use super::words;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::result::{Added, NextTest, TestKind, Verdict};
 use crate::diagnosis::updating::correction::Correction;
@@ -192,7 +191,7 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
     match parameter {
         UpdatingParameter::Structure(part) => corrected_part(structure, *part),
         UpdatingParameter::Known(index) => {
-            known.get(*index).map_or_else(|| "A known source".to_owned(), |s| words::title(structure, s))
+            known.get(*index).map_or_else(|| "A known source".to_owned(), |s| s.title(structure))
         }
         UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel) => format!("Gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
@@ -202,10 +201,8 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
 }
 
 fn corrected_part(structure: &Structure, part: Part) -> String {
-    let place = |dofs: &[usize]| words::at(structure, &Place::Dofs(dofs.to_vec()));
-    let elements = |[first, last]: [usize; 2]| {
-        if first == last { format!("element {}", first + 1) } else { format!("elements {}–{}", first + 1, last + 1) }
-    };
+    let place = |dofs: &[usize]| Place::Dofs(dofs.to_vec()).phrase(structure);
+    let elements = |range: [usize; 2]| Place::Whole(Some(range)).phrase(structure);
     match part {
         Part::Stiffness => "All stiffness".to_owned(),
         Part::Mass => "All mass".to_owned(),
@@ -215,8 +212,8 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),
         Part::Coupling(pair) => format!("Spring {}", place(&pair)),
         Part::PointMass(dof) => format!("Mass {}", place(&[dof])),
-        Part::ElementStiffness(range) => format!("Stiffness of {}", elements(range)),
-        Part::ElementMass(range) => format!("Mass of {}", elements(range)),
+        Part::ElementStiffness(range) => format!("Stiffness {}", elements(range)),
+        Part::ElementMass(range) => format!("Mass {}", elements(range)),
         Part::Support(held) => format!("Support at node {}", structure.held_node(held).unwrap_or_default()),
     }
 }

@@ -11,7 +11,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 
 /// A value as it is edited: to ten digits, in powers of ten where it is very large or very small.
 pub fn editable(value: f64) -> String {
-    let value = format!("{value:.9e}").parse().unwrap_or(value);
+    let value = numerals::rounded(value, 10);
     let plain = value == 0.0 || (1e-4..1e6).contains(&value.abs());
     let text = if plain { format!("{value}") } else { format!("{value:e}") };
     text.replace('-', "−")
@@ -19,7 +19,7 @@ pub fn editable(value: f64) -> String {
 
 /// A value to twelve significant digits.
 pub fn rounded(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
+    numerals::rounded(value, 12)
 }
 
 /// `value` with four significant digits and `unit`.

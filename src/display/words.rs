@@ -2,16 +2,12 @@
 
 use super::format;
 use crate::balance::{Expansion, Weights};
-use crate::effects::{Effect, Place, Source};
+use crate::effects::Source;
+pub(crate) use crate::effects::wording::capital;
 pub(crate) use crate::math::numerals::counted;
 use crate::measurement::{Flag, Quantity, Run};
+use crate::structure::StructureKind;
 use crate::structure::beam::Supports;
-use crate::structure::{Structure, StructureKind};
-
-/// A law in words.
-pub fn effect(effect: Effect) -> &'static str {
-    effect.noun()
-}
 
 /// The name of a parameter for readers: `Loss stiffness`; a single letter stays what it is.
 pub fn parameter(name: &str) -> String {
@@ -111,45 +107,6 @@ pub fn kind(kind: StructureKind) -> &'static str {
     }
 }
 
-/// A place by the labels of its DOFs: `7 to ground`, `7–9`, `1–3–5`, `whole structure`, `acc@7`.
-pub fn place(structure: &Structure, place: &Place) -> String {
-    match place {
-        Place::Dofs(dofs) if dofs.len() == 1 => format!("{} to ground", structure.label(dofs[0])),
-        Place::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("–"),
-        Place::Whole(None) => "whole structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("elements {}–{}", first + 1, last + 1),
-        Place::Channel(channel) => channel.clone(),
-    }
-}
-
-/// A place after the name of an effect: `at DOF 15`, `between DOF 3 and 5`, `of acc@7`.
-pub fn at(structure: &Structure, place: &Place) -> String {
-    let label = |d: &usize| structure.label(*d).to_owned();
-    match place {
-        Place::Dofs(dofs) => match &dofs[..] {
-            [one] => format!("at DOF {}", label(one)),
-            [a, b] => format!("between DOF {} and {}", label(a), label(b)),
-            many => format!("along DOF {}", many.iter().map(label).collect::<Vec<_>>().join("–")),
-        },
-        Place::Whole(None) => "of the whole structure".to_owned(),
-        Place::Whole(Some([first, last])) => format!("of elements {}–{}", first + 1, last + 1),
-        Place::Channel(channel) => format!("of {channel}"),
-    }
-}
-
-/// Law and place at the start of a sentence: `Dry friction at DOF 15`.
-pub fn title(structure: &Structure, source: &Source) -> String {
-    capital(&format!("{} {}", effect(source.effect), at(structure, &source.place)))
-}
-
-/// The same as [`place`], shorter: `7`, `7–9`.
-pub fn short_place(structure: &Structure, at: &Place) -> String {
-    match at {
-        Place::Dofs(dofs) if dofs.len() == 1 => structure.label(dofs[0]).to_owned(),
-        _ => place(structure, at),
-    }
-}
-
 /// A coefficient with its deviation and unit.
 pub fn coefficient(source: &Source, estimate: &crate::identify::Estimate) -> String {
     let parameter = source.effect.coefficient().map(|k| source.effect.parameters()[k]);
@@ -171,10 +128,4 @@ pub fn coefficients<'a>(all: impl Iterator<Item = (&'a Source, &'a crate::identi
         if same && k < last { value.clone() } else { format!("{value} {unit}").trim_end().to_owned() }
     };
     parts.iter().enumerate().map(said).collect::<Vec<_>>().join(", ")
-}
-
-/// With a capital letter at the start.
-pub fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

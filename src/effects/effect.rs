@@ -35,6 +35,8 @@ impl Effect {
     pub const DASHPOT: Self = Self::Viscous;
     /// The spring among the laws.
     pub const SPRING: Self = Self::Stiffness;
+    /// The law of a contact that slips in part, as in bolted joints.
+    pub const MICROSLIP: Self = Self::Iwan;
     /// What stands in for the damping of a structure of which none is known: the same loss factor in every mode.
     pub const STAND_IN: Self = Self::LossFactor;
     /// The error of a channel that multiplies what it reads.

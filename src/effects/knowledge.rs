@@ -1,6 +1,6 @@
 //! What may be asked of an effect by its name alone: its law and what is known of it.
 
-use super::description::{Constant, Description, Exponents};
+use super::description::{Constant, Description, Exponents, Part};
 use super::effect::Effect;
 use super::kind::Kind;
 use super::law::{Law, WholeLaw};
@@ -80,6 +80,22 @@ impl Effect {
     /// ```
     pub fn exponents(self, p: &[f64]) -> Option<Exponents> {
         (self.description().exponents)(p)
+    }
+
+    /// Laws of one parameter whose equivalent coefficient goes with a power of the amplitude, and that power, in rising order; of
+    /// laws that share a power the first. Measured powers are compared with them.
+    pub fn amplitude_powers(part: Part) -> Vec<(Self, f64)> {
+        let mut powers: Vec<(Self, f64)> = Vec::new();
+        for (effect, _) in Self::relative().filter(|(effect, _)| effect.parameters().len() == 1) {
+            let exponents = effect.exponents(effect.description().example).filter(|exponents| exponents.part == part);
+            if let Some(power) = exponents.map(|exponents| exponents.amplitude)
+                && powers.iter().all(|(_, other)| *other != power)
+            {
+                powers.push((effect, power));
+            }
+        }
+        powers.sort_by(|a, b| a.1.total_cmp(&b.1));
+        powers
     }
 
     /// The effects on a relative motion with their laws.

@@ -39,7 +39,7 @@ pub use memory::Memory;
 pub use memoryless::MemorylessLaw;
 pub use motion::Motion;
 pub use parameter::Parameter;
-pub use place::{Leg, Place};
+pub use place::{Leg, Place, WrittenPlace};
 pub use range::Range;
 pub use sampling::Sampling;
 pub use set_valued::{SetValued, Steep};

@@ -33,14 +33,40 @@ pub enum Place {
     Channel(String),
 }
 
+/// A place in the terms of project files.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct WrittenPlace {
+    /// Labels of the DOFs; none for the whole structure and channels.
+    pub dofs: Vec<String>,
+    /// First and last beam element, counted from 1.
+    pub elements: Option<[i64; 2]>,
+    /// The name of a channel.
+    pub channel: Option<String>,
+}
+
 impl Place {
-    /// Labels of its DOFs joined by dashes, such as `13-17`; `structure` for the whole, the name of a channel.
-    pub fn labels(&self, structure: &Structure) -> String {
+    /// As project files and JSON write it: labels of DOFs, a range of elements, or a channel.
+    pub fn written(&self, structure: &Structure) -> WrittenPlace {
         match self {
-            Self::Dofs(dofs) => dofs.iter().map(|&d| structure.label(d)).collect::<Vec<_>>().join("-"),
-            Self::Whole(None) => "structure".to_owned(),
-            Self::Whole(Some([first, last])) => format!("elements {}-{}", first + 1, last + 1),
-            Self::Channel(name) => name.clone(),
+            Self::Dofs(dofs) => {
+                let dofs = dofs.iter().map(|&dof| structure.label(dof).to_owned()).collect();
+                WrittenPlace { dofs, ..WrittenPlace::default() }
+            }
+            Self::Whole(range) => {
+                let elements = range.map(|range| range.map(|element| element as i64 + 1));
+                WrittenPlace { elements, ..WrittenPlace::default() }
+            }
+            Self::Channel(channel) => WrittenPlace { channel: Some(channel.clone()), ..WrittenPlace::default() },
+        }
+    }
+
+    /// As one word in exported results: labels joined by hyphens, such as `13-17`; `structure` for the whole, the name of a channel.
+    pub fn exported(&self, structure: &Structure) -> String {
+        match self.written(structure) {
+            WrittenPlace { channel: Some(channel), .. } => channel,
+            WrittenPlace { elements: Some([first, last]), .. } => format!("elements {first}-{last}"),
+            _ if matches!(self, Self::Whole(_)) => "structure".to_owned(),
+            WrittenPlace { dofs, .. } => dofs.join("-"),
         }
     }
 

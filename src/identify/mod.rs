@@ -9,7 +9,6 @@
 mod assembly;
 pub mod change;
 mod collinear;
-mod describe;
 pub(crate) mod error;
 mod exchange;
 mod finish;

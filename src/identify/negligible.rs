@@ -5,7 +5,6 @@
 //! none of the energy anywhere. What no run shows to half a per cent of its energy, `|G_rj c_j| < 0.005 sum_k |G_rk c_k|` in
 //! all rows `r`, is not taken: accelerometers and force cells are flat over frequency to no better than one per cent.
 
-use super::describe::describe;
 use super::outcome::SelectionStep;
 use super::problem::Problem;
 use super::search::SizeRanking;
@@ -13,6 +12,7 @@ use super::solve::Fit;
 use super::state::IdentificationState;
 use super::system::System;
 use crate::balance::Weights;
+use crate::math::numerals::counted;
 use crate::math::subsets::RankedSet;
 
 /// Share of the energy of a run that a source must carry in one of them at least.
@@ -32,12 +32,11 @@ pub(super) fn without_negligible(
         |column: &usize| !problem.forced.contains(column) && largest_share(&energy, best, *column) < LEAST_SHARE;
     let (negligible, kept): (Vec<usize>, Vec<usize>) = best.columns.iter().copied().partition(small);
     let smaller = rankings[..accepted].iter().position(|ranking| ranking.best().columns == kept)?;
-    let names: Vec<String> = negligible.iter().map(|&j| describe(&problem.columns[j], problem.structure)).collect();
+    let names: Vec<String> = negligible.iter().map(|&j| problem.columns[j].phrase(problem.structure)).collect();
     let reason = format!(
-        "{} source{}; {} would bring the residual nearer to the noise, but carries less than 0.5 % of the energy in every run, \
+        "{}; {} would bring the residual nearer to the noise, but carries less than 0.5 % of the energy in every run, \
          less than model and sensors are true to",
-        kept.len(),
-        if kept.len() == 1 { "" } else { "s" },
+        counted(kept.len(), "source"),
         names.join(" with ")
     );
     Some((smaller, reason))

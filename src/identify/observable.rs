@@ -1,6 +1,5 @@
 //! Which columns the sensors see at all, and whether anything was put in.
 
-use super::describe::describe;
 use super::error::IdentifyError;
 use super::problem::Problem;
 use super::state::IdentificationState;
@@ -11,7 +10,7 @@ impl Problem<'_> {
     pub(super) fn drop_unobservable(&mut self, state: &IdentificationState) -> Result<(), IdentifyError> {
         let method = self.expander.method();
         for source in self.known.iter().filter(|s| s.effect.dissipates() && !is_observable(s, &state.runs, method)) {
-            let name = describe(source, self.structure);
+            let name = source.phrase(self.structure);
             self.warnings.push(format!(
                 "{name} is known, but its motion is not measured, so its energy is not subtracted in full"
             ));
@@ -21,7 +20,7 @@ impl Problem<'_> {
             return check_input(state);
         }
         if let Some(&j) = self.forced.iter().find(|&&j| !keep[j]) {
-            let source_name = describe(&self.columns[j], self.structure);
+            let source_name = self.columns[j].phrase(self.structure);
             let reason = "its motion is not measured in every run".to_string();
             return Err(IdentifyError::ForcedImpossible { source_name, reason });
         }

@@ -1,6 +1,5 @@
 //! What is asked: columns, known sources, runs in use.
 
-use super::describe::describe;
 use super::error::IdentifyError;
 use super::measurements::Measurements;
 use super::ratios::Ratios;
@@ -143,7 +142,7 @@ impl<'a> Problem<'a> {
     }
 
     fn impossible(&self, source: &Source, reason: &str) -> IdentifyError {
-        IdentifyError::ForcedImpossible { source_name: describe(source, self.structure), reason: reason.to_owned() }
+        IdentifyError::ForcedImpossible { source_name: source.phrase(self.structure), reason: reason.to_owned() }
     }
 
     fn check_counts(&self) -> Result<(), IdentifyError> {

@@ -1,6 +1,5 @@
 //! Measured damping ratios with the modes of the model that they belong to.
 
-use super::describe::describe;
 use super::error::IdentifyError;
 use crate::effects::{Constant, Effect, Source};
 use crate::measurement::MeasuredRatio;
@@ -34,7 +33,7 @@ impl Ratios {
         let [known, columns] = sources;
         let other = |s: &&Source| s.effect.dissipates() && !is_constant(s.effect);
         if let Some(source) = known.iter().chain(columns).find(other) {
-            return Err(IdentifyError::RatioOfAmplitude { source_name: describe(source, structure) });
+            return Err(IdentifyError::RatioOfAmplitude { source_name: source.phrase(structure) });
         }
         let linear = LinearMatrices::new(structure, known).map_err(|_| IdentifyError::RatioWithoutModel)?;
         let matrices = SystemMatrices { mass: linear.mass, stiffness: linear.stiffness };

@@ -2,7 +2,6 @@
 //! Bayesian criterion, extended by the number of sets that were to choose from), confirmed by leaving out runs. Without
 //! known noise the angle rules, as in the thesis.
 
-use super::describe::describe;
 use super::negligible::without_negligible;
 use super::outcome::{Form, Status};
 use super::problem::Problem;
@@ -11,7 +10,7 @@ use super::solve;
 use super::state::IdentificationState;
 use super::system::System;
 use crate::balance::Weights;
-use crate::math::numerals::significant;
+use crate::math::numerals::{counted, significant};
 use crate::math::statistics::chi_square_quantile;
 
 /// Probability of a larger residual below which a set does not explain the data.
@@ -58,9 +57,9 @@ impl Pass<'_, '_> {
             return decision;
         }
         let reason = format!(
-            "{count} source{} from {rows} equation{}: nothing is left to judge them by; measure more runs or name fewer candidates",
-            plural(count),
-            plural(rows)
+            "{} from {}: nothing is left to judge them by; measure more runs or name fewer candidates",
+            counted(count, "source"),
+            counted(rows, "equation")
         );
         Decision { status: Status::NothingLeft, reason, ..decision }
     }
@@ -132,9 +131,8 @@ fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], fir
     }
     let score = &scores[accepted];
     let mut reason = format!(
-        "{} source{}: chi-square {:.3} with {} degrees of freedom, within the noise",
-        score.count,
-        plural(score.count),
+        "{}: chi-square {:.3} with {} degrees of freedom, within the noise",
+        counted(score.count, "source"),
         score.chi_square,
         score.freedom
     );
@@ -172,10 +170,9 @@ fn above_noise(scores: &[Score]) -> Decision {
     let accepted =
         (0..scores.len()).min_by(|&a, &b| criterion(&scores[a]).total_cmp(&criterion(&scores[b]))).unwrap_or(0);
     let reason = format!(
-        "no set reaches the noise (residual {:.3} deviations at best); {} source{} by the Bayesian criterion",
+        "no set reaches the noise (residual {:.3} deviations at best); {} by the Bayesian criterion",
         scale.sqrt(),
-        scores[accepted].count,
-        plural(scores[accepted].count)
+        counted(scores[accepted].count, "source")
     );
     Decision { accepted, status: Status::AboveNoise, reason, larger: None }
 }
@@ -192,21 +189,21 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
     if let Some(accepted) = rankings.iter().position(|r| angle(r) < limit) {
         let count = rankings[accepted].best().columns.len();
         let reason = format!(
-            "{count} source{}: the angle of {} deg is below the limit of {limit} deg",
-            plural(count),
-            short(angle(&rankings[accepted]))
+            "{}: the angle of {} deg is below the limit of {limit} deg",
+            counted(count, "source"),
+            significant(angle(&rankings[accepted]), 3)
         );
         return Decision { accepted, status: Status::BelowAngle, reason, larger: None };
     }
     let accepted =
         (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
     let best = rankings[accepted].best();
-    let names: Vec<String> = best.columns.iter().map(|&j| describe(&problem.columns[j], problem.structure)).collect();
+    let names: Vec<String> = best.columns.iter().map(|&j| problem.columns[j].phrase(problem.structure)).collect();
     let reason = format!(
         "no set of up to {} sources comes below the limit of {limit} deg; the nearest, {}, is at {} deg",
         problem.settings.max_sources,
         names.join(", "),
-        short(angle(&rankings[accepted]))
+        significant(angle(&rankings[accepted]), 3)
     );
     Decision { accepted, status: Status::AboveAngle, reason, larger: None }
 }
@@ -225,13 +222,4 @@ pub(crate) fn relative_residual(system: &System, columns: &[usize], coefficients
         size += system.b[i].powi(2);
     }
     if size > 0.0 { (error / size).sqrt() } else { 0.0 }
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
-}
-
-/// Three significant digits.
-fn short(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1e-3 { format!("{value:.2e}") } else { format!("{value:.3}") }
 }

@@ -1,6 +1,5 @@
 //! What the user should know beside the answer.
 
-use super::describe::describe;
 use super::problem::Problem;
 use super::{found::Found, solve};
 use crate::balance::Expansion;
@@ -61,7 +60,7 @@ fn parallel_laws(problem: &Problem<'_>, found: &Found) -> Vec<String> {
             let dot = |p: usize, q: usize| (0..g.nrows()).map(|r| g[(r, p)] * g[(r, q)]).sum::<f64>();
             let cosine = dot(i, j) / (dot(i, i) * dot(j, j)).sqrt();
             if cosine.is_finite() && cosine.min(1.0).acos().to_degrees() < PARALLEL_DEG {
-                let names = (describe(b, problem.structure), describe(a, problem.structure));
+                let names = (b.phrase(problem.structure), a.phrase(problem.structure));
                 list.push(format!(
                     "{} and {} cannot be told apart: they take out energy in the same proportion in every run; measure at another force level",
                     names.0, names.1
@@ -92,7 +91,7 @@ fn uncertain(problem: &Problem<'_>, fit: &solve::Fit, set: &[usize]) -> Vec<Stri
         .map(|(k, &j)| {
             format!(
                 "{}: its standard deviation is {:.0} % of its value",
-                describe(&problem.columns[j], problem.structure),
+                problem.columns[j].phrase(problem.structure),
                 100.0 * (fit.deviations[k] / fit.coefficients[k]).min(1e6)
             )
         })

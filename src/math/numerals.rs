@@ -20,7 +20,8 @@ pub(crate) fn with_deviation(value: f64, deviation: f64) -> String {
     format!("({:.places$} +- {:.places$})e{power}", value * scale, deviation * scale)
 }
 
-/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, else as `1.23e-7`; `-` for what is no number.
+/// `value` with `digits` significant digits, in plain notation between 1e-3 and 1e5, or as many digits, else as
+/// `1.23e-7`; `-` for what is no number.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -30,11 +31,25 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let exponent: i32 = rounded.rsplit('e').next().and_then(|e| e.parse().ok()).unwrap_or(0);
-    if !(-3..5).contains(&exponent) {
+    // Plain as far as no digit that is not known would have to be written.
+    if !(-3..(digits as i32).max(5)).contains(&exponent) {
         return rounded;
     }
     let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
     format!("{value:.decimals$}")
+}
+
+/// The same without zeros at the end of its decimals: `2560` for `2560.00`.
+pub(crate) fn compact(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (number, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    let short = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
+    format!("{short}{power}")
+}
+
+/// `value` rounded to `digits` significant digits.
+pub(crate) fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 /// A number of things in words: `1 source`, `3 sources`.
@@ -73,5 +88,15 @@ mod tests {
         assert_eq!(significant(2.1e-9, 3), "2.10e-9");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(f64::NAN, 3), "-");
+        assert_eq!(significant(102_400.3, 6), "102400");
+        assert_eq!(significant(102_400.3, 4), "1.024e5");
+    }
+
+    #[test]
+    fn zeros_at_the_end_are_left_out_and_what_is_rounded_has_no_more_digits() {
+        let written = [2560.0, 0.0125, -3.0e-7, 1_234.567_89, 200.0, 0.0].map(|value| compact(value, 6));
+        assert_eq!(written, ["2560", "0.0125", "-3e-7", "1234.57", "200", "0"]);
+        assert_eq!(rounded(1000.0 * 0.56, 12), 560.0);
+        assert!(rounded(f64::NAN, 12).is_nan());
     }
 }

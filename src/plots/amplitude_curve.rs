@@ -1,11 +1,13 @@
 //! Frequency and damping ratio of one mode over its amplitude, measured and modelled: what the envelope of a decay tells.
 
 use super::figure::{Axis, Figure, Look, Scale, Ticks};
+use super::fingerprint::law_with_power;
 use super::style::Palette;
 use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::ModeCurve;
 use crate::display::units::{self, Damping};
 use crate::display::{format, words};
+use crate::effects::{Effect, Part};
 use crate::measurement::Quantity;
 
 /// Points from which on a curve says something.
@@ -14,12 +16,16 @@ const LEAST_POINTS: usize = 3;
 /// Largest over least amplitude from which on a slope shows: there the axes of the damping ratio are logarithmic.
 const WIDE: f64 = 2.0;
 
-/// Slopes of `ln zeta` over `ln A` of laws, as guides: dry friction, viscous damping, microslip (between these two: `chi + 1`), drag.
-const SLOPES: [(f64, &str); 4] =
-    [(-1.0, "dry friction, slope −1"), (0.0, "viscous, 0"), (0.5, "microslip, 1/2"), (1.0, "drag, 1")];
-/// The same of `ln Q`, which falls where the damping ratio rises.
-const SLOPES_OF_QUALITY: [(f64, &str); 4] =
-    [(1.0, "dry friction, slope 1"), (0.0, "viscous, 0"), (-0.5, "microslip, −1/2"), (-1.0, "drag, −1")];
+/// Slope of a contact that slips in part, `chi + 1` at the usual `chi = -1/2`: between those of dashpot and drag.
+const MICROSLIP: f64 = 0.5;
+
+/// Laws and their slopes of `ln zeta` over `ln A`, in rising order: guides for the curve.
+pub(crate) fn slopes() -> Vec<(Effect, f64)> {
+    let mut slopes = Effect::amplitude_powers(Part::Damping);
+    slopes.push((Effect::MICROSLIP, MICROSLIP));
+    slopes.sort_by(|a, b| a.1.total_cmp(&b.1));
+    slopes
+}
 
 /// The modes of a record whose curves say something.
 pub(crate) fn told(curves: &[ModeCurve]) -> Vec<&ModeCurve> {
@@ -59,13 +65,16 @@ pub(crate) fn figure(curve: &ModeCurve, ratio: bool, palette: &Palette) -> Figur
     let mut figure = Figure::new(title, x, if wide && ratio { logarithmic(y) } else { y });
     figure.margin = 0.04;
     if wide && ratio {
-        let slopes = if measure == Damping::Quality { SLOPES_OF_QUALITY } else { SLOPES };
+        // The quality factor falls where the damping ratio rises.
+        let sign = if measure == Damping::Quality { -1.0 } else { 1.0 };
         // Each is told from the others in black and white too.
         let [ink, weak] = [palette.ink, palette.weak];
         let looks =
             [(ink, Look::Dashed(1.2)), (weak, Look::Line(1.0)), (weak, Look::Dashed(1.2)), (ink, Look::Line(1.0))];
-        for ((slope, law), (colour, look)) in slopes.into_iter().zip(looks) {
-            figure = figure.points(law, colour, look, guide(&points(&curve.measured), slope));
+        for ((law, slope), (colour, look)) in slopes().into_iter().zip(looks) {
+            let slope = sign * slope;
+            let line = guide(&points(&curve.measured), slope);
+            figure = figure.points(&law_with_power(law, slope), colour, look, line);
         }
     }
     figure
@@ -102,13 +111,14 @@ fn guide(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{SLOPES, guide};
+    use super::{guide, slopes};
+    use crate::effects::Effect;
 
     /// A guide has its slope, passes through the middle of the points and stays beside them.
     #[test]
     fn guides_have_the_slopes_of_their_laws() {
         let points: Vec<[f64; 2]> = (1..40).map(|k| [f64::from(k) * 1e-3, 2.0 / f64::from(k)]).collect();
-        for (slope, law) in SLOPES {
+        for (law, slope) in slopes() {
             let line = guide(&points, slope);
             let [[a, p], [b, q]] = [line[0], line[1]];
             assert!(((q / p).ln() - slope * (b / a).ln()).abs() < 1e-12, "{law}");
@@ -116,7 +126,9 @@ mod tests {
             assert!((middle / 0.1 - 1.0).abs() < 1e-9, "{law}: {middle}");
             assert!(p.max(q) < 10.0 && p.min(q) > 0.01, "{law}");
         }
-        // Dry friction lies on its guide.
+        let laws = slopes().into_iter().map(|(law, _)| law);
+        assert!(laws.eq([Effect::Coulomb, Effect::Viscous, Effect::Iwan, Effect::Quadratic]));
+        // Coulomb friction lies on its guide.
         let line = guide(&points, -1.0);
         assert!(line.iter().all(|p| (p[1] * p[0] / 2e-3 - 1.0).abs() < 1e-9));
     }

@@ -4,6 +4,7 @@ use super::figure::{Axis, Figure, Label, Look, Ticks};
 use super::style::Palette;
 use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print, PrintPoint};
 use crate::display::format;
+use crate::effects::{Effect, Part};
 
 /// Title of the plot and what the slope says, in one line each.
 pub(crate) fn words(print: &Print) -> (String, String) {
@@ -26,16 +27,25 @@ pub(crate) fn words(print: &Print) -> (String, String) {
     (format!("{what} against {against}"), slope)
 }
 
-/// Whether powers of the abscissa are shown, on logarithmic axes.
-fn powers(print: &Print) -> bool {
-    matches!(print.measure, Measure::Damping | Measure::Stiffness)
+/// The part of the force whose powers of the abscissa are shown, on logarithmic axes.
+fn part(print: &Print) -> Option<Part> {
+    match print.measure {
+        Measure::Damping => Some(Part::Damping),
+        Measure::Stiffness => Some(Part::Stiffness),
+        Measure::Phase | Measure::Ratio => None,
+    }
+}
+
+/// A law with its power: `Coulomb friction −1`.
+pub(super) fn law_with_power(law: Effect, power: f64) -> String {
+    format!("{} {}", law.noun(), format::significant(power, 1))
 }
 
 /// Runs with deviations, the fitted trend, and the powers of simple laws.
 pub(crate) fn figure(print: &Print, palette: &Palette) -> Figure {
-    let powers = powers(print);
+    let part = part(print);
     let axis = |name, unit| {
-        if powers { Axis::log(name, unit).ticks(Ticks::OneTwoFive) } else { Axis::new(name, unit) }
+        if part.is_some() { Axis::log(name, unit).ticks(Ticks::OneTwoFive) } else { Axis::new(name, unit) }
     };
     let x = if print.against == Against::Amplitude {
         axis("Amplitude at the place", "m").peak()
@@ -51,8 +61,8 @@ pub(crate) fn figure(print: &Print, palette: &Palette) -> Figure {
     let x = if print.measure == Measure::Phase { x.include(&[0.0]) } else { x };
     let mut figure = Figure::new(&words(print).0, x, y);
     figure.margin = 0.05;
-    if powers && print.against == Against::Amplitude {
-        figure = laws(figure, palette, print);
+    if let Some(part) = part.filter(|_| print.against == Against::Amplitude) {
+        figure = laws(figure, palette, print, part);
     }
     if let Some(line) = trend(print) {
         figure = figure.points("trend", palette.missing, Look::Line(2.0), line);
@@ -75,12 +85,12 @@ fn cloud(points: &[PrintPoint]) -> ([f64; 2], [f64; 2]) {
 const HEADROOM: f64 = 0.30;
 
 /// Faint lines with the powers of simple laws through the middle of the cloud, no further up and down than it reaches.
-fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
+fn laws(mut figure: Figure, palette: &Palette, print: &Print, part: Part) -> Figure {
     let ([x, y], ends) = cloud(&print.points);
     let heights = print.points.iter().map(|p| p.y.log10());
     let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
     let margin = 0.15 * (high - low).max(0.3);
-    for (name, power) in print.laws() {
+    for (law, power) in Effect::amplitude_powers(part) {
         let inside = |v: f64| (low - margin..=high + margin).contains(&v);
         let points: Vec<[f64; 2]> = (0..=40)
             .map(|k| ends[0] + (ends[1] - ends[0]) * f64::from(k) / 40.0)
@@ -92,7 +102,7 @@ fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
             let at = [x, y + 0.03 * (high - low)].map(|v| 10f64.powf(v));
             // Room above the highest for its name, which would else stand below the edge, on its own line.
             figure.y.include.push(10f64.powf(y + HEADROOM * (high - low)));
-            figure.labels.push(Label { at, text: (*name).to_owned(), colour: palette.weak });
+            figure.labels.push(Label { at, text: law_with_power(law, power), colour: palette.weak });
         }
         let points = points.into_iter().map(|p| p.map(|v| 10f64.powf(v))).collect();
         figure = figure.points("", palette.weak.gamma_multiply(0.7), Look::Dashed(1.0), points);
@@ -103,7 +113,7 @@ fn laws(mut figure: Figure, palette: &Palette, print: &Print) -> Figure {
 /// Ends of the fitted line.
 fn trend(print: &Print) -> Option<Vec<[f64; 2]>> {
     let [slope, _] = print.slope?;
-    if powers(print) {
+    if part(print).is_some() {
         let ([x, y], ends) = cloud(&print.points);
         return Some(ends.map(|at| [at, y + slope * (at - x)].map(|v| 10f64.powf(v))).to_vec());
     }

@@ -55,9 +55,9 @@ pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Ve
             let points = motion.displacement.iter().zip(&force).map(|(&d, &f)| [d, f]);
             let mut model: Vec<[f64; 2]> = points.collect();
             model.extend(model.first().copied());
-            let place = words::place(&p.structure, &source.place);
+            let place = source.place.cell(&p.structure);
             let rotation = matches!(&source.place, Place::Dofs(dofs) if is_rotation(p, dofs));
-            let name = format!("{} {place}", words::effect(source.effect));
+            let name = format!("{} {place}", source.effect.noun());
             loops.push(Loop { name, model, measured: Vec::new(), rotation });
         }
     }

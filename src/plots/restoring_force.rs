@@ -22,7 +22,7 @@ fn largest(force: &RestoringForce, of: fn(&ForcePoint) -> f64) -> f64 {
 
 /// What the plots show, as a title: `Missing force at DOF 7`.
 pub(crate) fn title(force: &RestoringForce, structure: &Structure) -> String {
-    format!("Missing force {}", words::at(structure, &force.place))
+    format!("Missing force {}", force.place.phrase(structure))
 }
 
 /// What stands in them, in one line: the law, the harmonics and the deviation of the points.
@@ -33,12 +33,12 @@ pub(crate) fn caption(force: &RestoringForce) -> String {
         let law = force
             .law
             .as_ref()
-            .map_or_else(String::new, |s| format!("; lines: {} along the same motion", words::effect(s.effect)));
+            .map_or_else(String::new, |s| format!("; lines: {} along the same motion", s.effect.noun()));
         return format!("points: parts of records, ± {}{law}", format::prefixed(deviation, "N"));
     }
     let law = force.law.as_ref().map_or_else(
         || "no law is drawn through them".to_owned(),
-        |s| format!("lines: {} with the same harmonics", words::effect(s.effect)),
+        |s| format!("lines: {} with the same harmonics", s.effect.noun()),
     );
     let count = words::counted(harmonics, "harmonic");
     format!("points: one period, {count}, ± {}; {law}", format::prefixed(deviation, "N"))
@@ -108,7 +108,7 @@ pub(crate) fn maps(force: &RestoringForce, structure: &Structure, palette: &Pale
     }
     let mut list = vec![map(force, structure, palette, ("identified", most, |r| &r.points))];
     if let Some(law) = force.law.as_ref().filter(|_| force.runs.iter().any(|r| !r.law.is_empty())) {
-        list.push(map(force, structure, palette, (words::effect(law.effect), most, |r| &r.law)));
+        list.push(map(force, structure, palette, (law.effect.noun(), most, |r| &r.law)));
     }
     list
 }
@@ -148,7 +148,7 @@ fn keyed(mut figure: Figure, force: &RestoringForce, palette: &Palette) -> Figur
     let [dots, line] = if many { [palette.ink; 2] } else { colours[0] };
     figure = figure.key("identified", dots, Look::Dots(3.0));
     if let Some(law) = &force.law {
-        figure = figure.key(words::effect(law.effect), line, Look::Line(3.0));
+        figure = figure.key(law.effect.noun(), line, Look::Line(3.0));
     }
     if many {
         for (k, run) in force.runs.iter().enumerate() {

@@ -31,8 +31,8 @@ pub fn runs(p: &Project) -> String {
 /// Its sources with their states.
 pub fn sources(p: &Project) -> String {
     let line = |s: &Source| {
-        let place = words::place(&p.structure, &s.place);
-        format!("{}\t{place}\t{}", words::effect(s.effect), s.state.word())
+        let place = s.place.cell(&p.structure);
+        format!("{}\t{place}\t{}", s.effect.noun(), s.state.word())
     };
     table("law\tplace\tstate", p.sources.iter().map(line))
 }
@@ -48,8 +48,8 @@ pub fn steps(p: &Project, outcome: &Outcome) -> String {
     let line = |step: &SelectionStep| {
         let sources = step.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e)));
         let source_in_words = |(s, e): (&Source, &crate::identify::Estimate)| {
-            let place = words::short_place(&p.structure, &s.place);
-            format!("{} {place} {:e}", words::effect(s.effect), e.coefficient)
+            let place = s.place.short_cell(&p.structure);
+            format!("{} {place} {:e}", s.effect.noun(), e.coefficient)
         };
         let which: Vec<String> = sources.map(source_in_words).collect();
         let per_row = step.chi_square / step.freedom.max(1) as f64;
@@ -65,7 +65,7 @@ pub fn coefficients(p: &Project, outcome: &Outcome) -> String {
     let line = |e: &crate::identify::Estimate| {
         let s = p.sources.get(e.source)?;
         let unit = s.effect.coefficient().map_or("", |k| s.effect.parameters()[k].unit);
-        let (law, place, state) = (s.effect.name(), words::place(&p.structure, &s.place), s.state.word());
+        let (law, place, state) = (s.effect.name(), s.place.cell(&p.structure), s.state.word());
         let (value, deviation, share) = (e.coefficient, e.deviation, e.energy_percent);
         Some(format!("{law}\t{place}\t{state}\t{value:e}\t{deviation:e}\t{unit}\t{share}"))
     };
@@ -118,7 +118,7 @@ pub fn change(compared: &Compared) -> String {
         format!("{a:e}\t{da:e}\t{b:e}\t{db:e}\t{difference:e}\t{deviation:e}\t{chance:e}")
     };
     let source = |s: &crate::identify::change::SourceChange| {
-        let name = words::title(&compared.structure, &s.source);
+        let name = s.source.title(&compared.structure);
         format!("{name}\t{}\t{}", crate::display::change::unit(s), pair(&s.coefficient))
     };
     let mode = |m: &crate::identify::change::ModeChange| {

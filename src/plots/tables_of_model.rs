@@ -19,7 +19,7 @@ pub fn suggestions(structure: &Structure, list: &[Suggestion]) -> String {
             format!("{} {value:e} +- {deviation:e} {}", p.name, p.unit).trim_end().to_owned()
         };
         let parameters: Vec<String> = parameters.map(said).collect();
-        let (law, place) = (source.effect.name(), words::place(structure, &source.place));
+        let (law, place) = (source.effect.name(), source.place.cell(structure));
         let (chance, after, held) = (s.probability, s.error_after, s.held_out_error_after);
         format!("{law}\t{place}\t{chance:e}\t{after:e}\t{held:e}\t{}", parameters.join("; "))
     };

@@ -49,7 +49,7 @@ fn steady(page: &mut Page, content: &Content<'_>, control: &Control) {
     page.chapter(Section::Comparison, "Model of the known sources against the measurement");
     if let Some((_, taken)) = &content.with_identified {
         let structure = &content.project.structure;
-        let names: Vec<String> = taken.iter().map(|s| words::title(structure, s)).collect();
+        let names: Vec<String> = taken.iter().map(|s| s.title(structure)).collect();
         page.sentence(&format!(
             "The project states no damping that limits its resonances; what was identified is taken as known here: {}.",
             names.join("; ")
@@ -157,7 +157,7 @@ fn suggestions(page: &mut Page, structure: &Structure, list: &[Suggestion]) {
             format!("{} {}", words::parameter(p.name), format::with_deviation(*v, *d, p.unit))
         };
         vec![
-            words::title(structure, &s.added.source),
+            s.added.source.title(structure),
             sizes.map(size).collect::<Vec<_>>().join(", "),
             chance(s.probability),
             in_words(s.error_after),
@@ -176,11 +176,11 @@ fn suggestions(page: &mut Page, structure: &Structure, list: &[Suggestion]) {
 
 fn evidence(page: &mut Page, content: &Content<'_>, s: &Suggestion) {
     let structure = &content.project.structure;
-    let title = words::title(structure, &s.added.source);
+    let title = s.added.source.title(structure);
     page.section(&title);
     s.evidence.iter().for_each(|sentence| page.sentence(&polished(sentence)));
     if !s.indistinguishable_from.is_empty() {
-        let others: Vec<String> = s.indistinguishable_from.iter().map(|o| words::title(structure, o)).collect();
+        let others: Vec<String> = s.indistinguishable_from.iter().map(|o| o.title(structure)).collect();
         page.sentence(&format!("These data cannot tell it from: {}.", others.join("; ")));
     }
     if let Some((_, print)) = content.fingerprints.iter().find(|(source, _)| source.is_same(&s.added.source)) {
@@ -220,7 +220,7 @@ fn ledger(page: &mut Page, content: &Content<'_>) {
     if let Some(Ok(found)) = &content.diagnosis {
         let structure = &content.project.structure;
         for step in found.steps.iter().skip(1) {
-            let names: Vec<String> = step.added.iter().map(|a| words::title(structure, &a.source)).collect();
+            let names: Vec<String> = step.added.iter().map(|a| a.source.title(structure)).collect();
             let what = if names.is_empty() { "the corrections".to_owned() } else { names.join(", ") };
             rows.push(vec![
                 format!("with {what}, as suggested"),

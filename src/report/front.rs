@@ -63,7 +63,7 @@ fn summary(content: &Content<'_>) -> String {
         Some(Ok(found)) => {
             said.push(findings::sentence(found));
             said.extend(found.suggestions.first().map(|s| {
-                let name = words::title(&p.structure, &s.added.source);
+                let name = s.added.source.title(&p.structure);
                 format!(
                     "Most likely missing: {name}, probability {}; with it the error is {}.",
                     format::chance(s.probability),
@@ -86,10 +86,7 @@ fn identified(content: &Content<'_>, outcome: &Outcome) -> String {
     let most = outcome.sources.iter().max_by(|a, b| a.energy_percent.total_cmp(&b.energy_percent));
     let largest = most.and_then(|e| {
         let share = format::percent(0.01 * e.energy_percent);
-        Some(format!(
-            "; the largest share is that of {}, {share}",
-            words::title(&p.structure, p.sources.get(e.source)?)
-        ))
+        Some(format!("; the largest share is that of {}, {share}", p.sources.get(e.source)?.title(&p.structure)))
     });
     format!(
         "{} {verb} the dissipated energy to {}{}.",

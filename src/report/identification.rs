@@ -59,8 +59,8 @@ fn identified(page: &mut Page, p: &Project, outcome: &Outcome) {
     let rows = outcome.sources.iter().filter_map(|e| {
         let s = p.sources.get(e.source)?;
         Some(vec![
-            words::capital(words::effect(s.effect)),
-            words::place(&p.structure, &s.place),
+            s.effect.title().to_owned(),
+            s.place.cell(&p.structure),
             s.state.word().to_owned(),
             words::coefficient(s, e),
             format::percent(0.01 * e.energy_percent),

@@ -125,7 +125,7 @@ fn structure(page: &mut Page, p: &Project) {
 fn source_row(p: &Project, s: &Source) -> Vec<String> {
     let value = |(p, v): (&Parameter, &f64)| format!("{} {}", words::parameter(p.name), format::with_unit(*v, p.unit));
     let sizes: Vec<String> = s.effect.parameters().iter().zip(&s.parameters).map(value).collect();
-    vec![words::capital(words::effect(s.effect)), words::place(&p.structure, &s.place), sizes.join(", ")]
+    vec![s.effect.title().to_owned(), s.place.cell(&p.structure), sizes.join(", ")]
 }
 
 fn runs(page: &mut Page, p: &Project) {

@@ -56,7 +56,8 @@ impl<'a> DynamicStiffness<'a> {
     /// [`DynamicStiffnessError`] for a structure without matrices, nonlinear laws, or places that do not exist.
     pub fn new(structure: &'a Structure, sources: &[Source]) -> Result<Self, DynamicStiffnessError> {
         let matrices = structure.matrices().ok_or(DynamicStiffnessError::NoMatrices)?;
-        let laws = nonlinear(structure, sources);
+        let nonlinear = sources.iter().filter(|source| !source.effect.is_linear());
+        let laws: Vec<String> = nonlinear.map(|source| source.phrase(structure)).collect();
         if !laws.is_empty() {
             return Err(DynamicStiffnessError::Nonlinear { laws });
         }
@@ -177,19 +178,6 @@ where
         matrix[(leg.first, second)] -= value;
         matrix[(second, leg.first)] -= value;
     }
-}
-
-/// Names and places of the sources that are not linear.
-fn nonlinear(structure: &Structure, sources: &[Source]) -> Vec<String> {
-    let label = |&dof: &usize| structure.dofs().get(dof).map_or("?", |d| d.label.as_str());
-    sources
-        .iter()
-        .filter(|source| !source.effect.is_linear())
-        .map(|source| match &source.place {
-            Place::Dofs(dofs) => format!("{}@{}", source.effect, dofs.iter().map(label).collect::<Vec<_>>().join("-")),
-            _ => source.effect.to_string(),
-        })
-        .collect()
 }
 
 /// The legs of a source, whose rows exist.

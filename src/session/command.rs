@@ -3,7 +3,7 @@
 //! In JSON a command is an object with one key, such as `{"add_source": {"law": "viscous", "dofs": ["3"]}}`.
 
 use crate::balance::{Expansion, Weights};
-use crate::effects::{Effect, Family, Place, Source, State};
+use crate::effects::{Effect, Family, Source, State, WrittenPlace};
 use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::ReportTable;
 use crate::structure::Structure;
@@ -56,17 +56,8 @@ pub struct SourceAt {
 impl SourceAt {
     /// The source where it acts; an error of a channel has no DOFs.
     pub fn of(source: &Source, structure: &Structure) -> Self {
-        let (dofs, elements) = labels(&source.place, structure);
+        let WrittenPlace { dofs, elements, .. } = source.place.written(structure);
         Self { law: source.effect, dofs, elements, state: Some(source.state) }
-    }
-}
-
-/// Labels of the DOFs of a place, or its range of elements counted from 1.
-fn labels(place: &Place, structure: &Structure) -> (Vec<String>, Option<[i64; 2]>) {
-    match place {
-        Place::Dofs(dofs) => (dofs.iter().map(|&d| structure.label(d).to_owned()).collect(), None),
-        Place::Whole(range) => (Vec::new(), range.map(|r| r.map(|e| e as i64 + 1))),
-        Place::Channel(_) => (Vec::new(), None),
     }
 }
 
@@ -90,11 +81,7 @@ pub struct EffectAt {
 impl EffectAt {
     /// The effect of a source where it acts.
     pub fn of(source: &Source, structure: &Structure) -> Self {
-        let (dofs, elements) = labels(&source.place, structure);
-        let channel = match &source.place {
-            Place::Channel(channel) => Some(channel.clone()),
-            Place::Dofs(_) | Place::Whole(_) => None,
-        };
+        let WrittenPlace { dofs, elements, channel } = source.place.written(structure);
         Self { law: source.effect, dofs, elements, channel }
     }
 }

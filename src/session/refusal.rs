@@ -9,8 +9,8 @@ use crate::structure::StructureError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Refusal {
-    #[error("there is no `{law}` at {place}; choose a source of the pattern")]
-    NoSuchSource { law: Effect, place: String },
+    #[error("not drawn: {source_name}; choose a source of the pattern")]
+    NoSuchSource { source_name: String },
     #[error("the family `{family}` of `{law}` is already drawn")]
     FamilyTwice { law: Effect, family: &'static str },
     #[error("the family `{family}` of `{law}` is not drawn")]

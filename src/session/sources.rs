@@ -6,7 +6,7 @@ use crate::effects::Source;
 use crate::exchange::project::file::{ProjectFile, SourceTable};
 use crate::exchange::project::label::Label;
 use crate::exchange::project::ruled_out::RuledOutTable;
-use crate::exchange::project::sources::{at_place, members, place_words, single};
+use crate::exchange::project::sources::{at_place, members, single};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ pub(super) fn find(file: &mut ProjectFile, at: &SourceAt, structure: &Structure)
     if let Some(index) = drawn(file, at, structure)? {
         return Ok(index);
     }
-    let absent = || Refusal::NoSuchSource { law: at.law, place: place_words(&labels(&at.dofs), at.elements) };
     let sought = at_place(at.law, &labels(&at.dofs), at.elements, structure)?;
+    let absent = || Refusal::NoSuchSource { source_name: Source::candidate(at.law, sought.clone()).phrase(structure) };
     let mut family = None;
     for (index, table) in file.candidates.iter().enumerate() {
         if table.law == at.law && members(table, structure)?.iter().any(|member| member.place.is_same(&sought)) {

@@ -8,7 +8,7 @@ use super::files::{self, Pick};
 use super::leaving::{Changes, Leave};
 use super::menu_bar;
 use super::motion;
-use super::report_choice::{ReportChoice, Wish};
+use super::report_choice::{ReportChoice, ReportRequest};
 use super::view::Stage;
 use crate::exchange::Project;
 use crate::exchange::export::Format;
@@ -165,12 +165,12 @@ impl App {
     }
 
     /// Keeps what stands on the title page in the project, and asks where the report is to be written.
-    pub(super) fn want_report(&mut self, ctx: &Context, wish: Wish) {
-        let changed = self.document.as_ref().is_some_and(|d| d.session().document().file().report != wish.heading);
+    pub(super) fn want_report(&mut self, ctx: &Context, request: ReportRequest) {
+        let changed = self.document.as_ref().is_some_and(|d| d.session().document().file().report != request.heading);
         if changed {
-            self.edit(ctx, &Edit::Do(Change::SetReport(wish.heading.clone())));
+            self.edit(ctx, &Edit::Do(Change::SetReport(request.heading.clone())));
         }
-        self.report_wish = Some(wish);
+        self.report_request = Some(request);
         self.pick(ctx, Pick::Report);
     }
 
@@ -189,8 +189,10 @@ impl App {
             ledger: explained.ledger.path().into_iter().map(row).collect(),
         };
         let project = document.project.clone();
-        let wish =
-            self.report_wish.take().unwrap_or_else(|| ReportChoice::of(document.session().document().file()).wish());
+        let chosen = self
+            .report_request
+            .take()
+            .unwrap_or_else(|| ReportChoice::of(document.session().document().file()).request());
         let on = document.session().document();
         let origin = Origin {
             path: document.session().path().map(Path::to_path_buf),
@@ -200,9 +202,9 @@ impl App {
         let request = Request {
             // What the title page says is in the project by now.
             heading: ReportTable::default(),
-            sections: wish.sections,
-            limit: Some(Duration::from_secs_f64(wish.limit_s)),
-            tables: if wish.tables { Tables::Beside } else { Tables::None },
+            sections: chosen.sections,
+            limit: Some(Duration::from_secs_f64(chosen.limit_s)),
+            tables: if chosen.tables { Tables::Beside } else { Tables::None },
             origin: Some(origin),
             made_s: now_s(),
         };

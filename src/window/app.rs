@@ -14,7 +14,7 @@ use super::leaving::Leave;
 use super::photograph::Photograph;
 use super::plots::export::Exports;
 use super::repaint::RepaintGuard;
-use super::report_choice::{ReportChoice, Wish};
+use super::report_choice::{ReportChoice, ReportRequest};
 use super::view::{Stage, View};
 use crate::control::Control;
 use crate::session::recent::Recent;
@@ -52,7 +52,7 @@ pub struct App {
     /// What the report is to be, while it is asked.
     pub reporting: Option<ReportChoice>,
     /// What was decided of it, while it is asked where to.
-    pub(super) report_wish: Option<Wish>,
+    pub(super) report_request: Option<ReportRequest>,
     /// The dialog for a file that is open in the window.
     pub choosing: Option<Choosing>,
     /// Whether the program may close.
@@ -122,7 +122,7 @@ impl App {
         self.jobs.running().or_else(imported).or_else(|| self.derived.running()).or_else(|| self.learn.running())
     }
 
-    /// Gives up what runs, on the user's wish.
+    /// Gives up what runs, as the user asked.
     pub(super) fn stop(&mut self) {
         if self.running().is_none() {
             return;

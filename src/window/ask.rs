@@ -4,11 +4,11 @@ use super::commands::Command;
 use super::edits::Edit;
 use super::files::Pick;
 use super::frame::panes::Pane;
-use super::importing::destination::Wish as ImportWish;
+use super::importing::destination::ImportAction;
 use super::leaving::Changes;
-use super::report_choice::Wish;
+use super::report_choice::ReportRequest;
 use super::schematic::gesture::Intent;
-use super::stages::explain::deed::Deed;
+use super::stages::explain::request::Request;
 use super::view::Stage;
 use crate::exchange::export::Format;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ pub enum Ask {
     /// Measurements, and files of a model, to import.
     Import(Vec<PathBuf>),
     /// Something on the page of an import.
-    Importing(ImportWish),
+    Importing(ImportAction),
     /// Another name for the project.
     SaveAs(PathBuf),
     /// What was identified in a format; where to, is asked.
@@ -54,13 +54,13 @@ pub enum Ask {
     /// Open or close a pane of the stage.
     Pane(Pane, bool),
     /// Something in the stage Explain.
-    Explain(Deed),
+    Explain(Request),
     /// A dialog for a file.
     Pick(Pick),
     /// Files that were chosen in a dialog of the window.
     Picked(Pick, Vec<PathBuf>),
     /// The report, as decided in its dialog; where to, is asked.
-    Report(Box<Wish>),
+    Report(Box<ReportRequest>),
     /// Say why something cannot be done.
     Refuse(String),
     /// Close the message.

@@ -4,7 +4,7 @@ use super::app::App;
 use super::ask::Ask;
 use super::edits::Edit;
 use super::files::Pick;
-use super::importing::destination::Wish;
+use super::importing::destination::ImportAction;
 use super::importing::{Importing, Made, OpenProject, Progress};
 use crate::exchange::importing::Request;
 use crate::exchange::mapping::is_own_record;
@@ -67,20 +67,20 @@ impl App {
     }
 
     /// Does what was asked for on the page.
-    pub(super) fn import_wish(&mut self, ctx: &Context, wish: Wish) {
-        match wish {
-            Wish::Cancel => self.importing = None,
-            Wish::Model => self.pick(ctx, Pick::Model),
-            Wish::NoModel => {
+    pub(super) fn act_on_import(&mut self, ctx: &Context, action: ImportAction) {
+        match action {
+            ImportAction::Cancel => self.importing = None,
+            ImportAction::Model => self.pick(ctx, Pick::Model),
+            ImportAction::NoModel => {
                 let Some(Importing::Ready(draft)) = &self.importing else { return };
                 let request = Request { mass: None, stiffness: None, nodes: None, ..draft.request.clone() };
                 self.look_again(ctx, request);
             }
             // A new project takes the place of the open one.
-            Wish::Accept if self.would_lose_changes() => {
+            ImportAction::Accept if self.would_lose_changes() => {
                 self.fail("The open project has unsaved changes: save it first, then make the new project.".to_owned());
             }
-            Wish::Accept => {
+            ImportAction::Accept => {
                 let Some(Importing::Ready(draft)) = self.importing.take() else { return };
                 match draft.accepted(ctx) {
                     Ok(making) => self.importing = Some(making),

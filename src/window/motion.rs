@@ -3,8 +3,8 @@
 use egui::Context;
 use std::path::Path;
 
-/// Files in which desktops keep the wish, below the user's folder, with the line that says it.
-const WISHES: [(&str, &str, [&str; 2]); 3] = [
+/// Files in which desktops keep that setting, below the user's folder, with the line that says it.
+const SETTINGS: [(&str, &str, [&str; 2]); 3] = [
     (".config/gtk-4.0/settings.ini", "gtk-enable-animations", ["0", "false"]),
     (".config/gtk-3.0/settings.ini", "gtk-enable-animations", ["0", "false"]),
     (".config/kdeglobals", "AnimationDurationFactor", ["0", "0.0"]),
@@ -19,7 +19,7 @@ pub(crate) fn is_unwanted() -> bool {
 }
 
 fn is_unwanted_below(home: &Path) -> bool {
-    WISHES.iter().any(|(file, key, values)| {
+    SETTINGS.iter().any(|(file, key, values)| {
         let text = std::fs::read_to_string(home.join(file)).unwrap_or_default();
         let said =
             |line: &str| line.split_once('=').filter(|(k, _)| k.trim() == *key).map(|(_, v)| v.trim().to_owned());
@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn what_a_desktop_asks_for_is_read_from_its_files() {
         let home = tempfile::tempdir().unwrap();
-        assert!(!is_unwanted_below(home.path()), "no file, no wish");
+        assert!(!is_unwanted_below(home.path()), "no file, no setting");
         let write = |file: &str, text: &str| {
             let path = home.path().join(file);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// What was decided.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wish {
+pub struct ReportRequest {
     /// What stands on the title page.
     pub heading: ReportTable,
     /// Sections; none for all.
@@ -61,11 +61,11 @@ impl ReportChoice {
     }
 
     /// What is decided.
-    pub fn wish(&self) -> Wish {
+    pub fn request(&self) -> ReportRequest {
         let said = |text: &String| Some(text.trim().to_owned()).filter(|t| !t.is_empty());
         let all = self.sections.iter().all(|(_, wanted)| *wanted);
         let chosen = self.sections.iter().filter(|(_, wanted)| *wanted && !all);
-        Wish {
+        ReportRequest {
             heading: ReportTable {
                 title: said(&self.title),
                 object: said(&self.object),

@@ -11,7 +11,7 @@ use super::language::{self, Language};
 use super::leaving::Leave;
 use super::opened::Opened;
 use super::schematic::gesture::Intent;
-use super::stages::explain::deed::Deed;
+use super::stages::explain::request::Request;
 use super::theme::{Palette, space};
 use super::view::Stage;
 use super::{commands, frame, importing, learn, stages};
@@ -177,32 +177,32 @@ impl App {
             Ask::New(template) => self.leave(ctx, Leave::New(template)),
             Ask::Leave(changes) => self.left(ctx, changes),
             Ask::Import(files) => self.import(ctx, &files),
-            Ask::Importing(wish) => self.import_wish(ctx, wish),
+            Ask::Importing(action) => self.act_on_import(ctx, action),
             Ask::SaveAs(path) => self.save_as(&path),
             Ask::ExportAs(format) => self.pick(ctx, Pick::Export(format)),
             Ask::Export(format, path) => self.export(ctx, format, path),
             Ask::Stage(stage) => self.view.stage = stage,
             Ask::Schematic(intent) => self.intent(ctx, intent),
             Ask::Pane(pane, open) => self.desk.set_open(self.view.stage, pane, open),
-            Ask::Explain(deed) => self.explain(ctx, deed),
+            Ask::Explain(request) => self.explain(ctx, request),
             Ask::Pick(pick) => self.pick(ctx, pick),
             Ask::Picked(pick, paths) => self.picked(ctx, pick, paths),
-            Ask::Report(wish) => self.want_report(ctx, *wish),
+            Ask::Report(request) => self.want_report(ctx, *request),
             Ask::Refuse(why) => self.fail(why),
             Ask::Dismiss => self.message = None,
         }
     }
 
-    /// Does a deed of the stage Explain: what it changes in the project, then what is looked at.
-    fn explain(&mut self, ctx: &Context, deed: Deed) {
+    /// Does what is requested in the stage Explain: what it changes in the project, then what is looked at.
+    fn explain(&mut self, ctx: &Context, request: Request) {
         let Some(document) = &mut self.document else { return };
-        let change = stages::explain::changes::change(&deed, document, &self.derived);
-        if let Deed::Return(step) = deed
+        let change = stages::explain::changes::change(&request, document, &self.derived);
+        if let Request::Return(step) = request
             && stages::explain::go_back(document, &self.derived.explained.ledger, step)
         {
             self.view.source = None;
         }
-        stages::explain::look_on(deed, &mut self.view, &mut self.derived.explained);
+        stages::explain::look_on(request, &mut self.view, &mut self.derived.explained);
         match change {
             Ok(Some(change)) => self.edit_and_say(ctx, &change.edit, change.said),
             Ok(None) => {}

@@ -247,3 +247,12 @@ fn every_law_has_a_symbol_and_an_example() {
         assert_eq!((law.transfer(1.01, 3.0).norm() - 1.0).abs() < 1e-12, law.turns_phase(), "{effect}");
     }
 }
+
+/// Measured powers of the amplitude are compared with the plainest law of each.
+#[test]
+fn each_power_of_the_amplitude_has_its_plainest_law() {
+    let damping = [(Effect::Coulomb, -1.0), (Effect::Viscous, 0.0), (Effect::Quadratic, 1.0)];
+    assert_eq!(Effect::amplitude_powers(Part::Damping), damping);
+    let stiffness = [(Effect::Stiffness, 0.0), (Effect::CubicStiffness, 2.0)];
+    assert_eq!(Effect::amplitude_powers(Part::Stiffness), stiffness);
+}

@@ -73,6 +73,10 @@ fn table_5_9_case_3() {
     assert_named(&outcome, &sources, &[("C15", 7.81), ("C19", 6.36), ("v13", 0.472)], 0.0898, 2e-3);
     let exact = [("C15", 5.1), ("C19", 1.0), ("C7", 3.2), ("v13", 0.5), ("v17", 0.15), ("v3", 0.2)];
     assert_named(&outcome, &sources, &exact, 0.0, 1e-6);
-    assert!(outcome.warnings.iter().any(|w| w.contains("viscous at 19 and coulomb at 19")), "{:?}", outcome.warnings);
+    assert!(
+        outcome.warnings.iter().any(|w| w.contains("viscous dashpot at DOF 19 and Coulomb friction at DOF 19")),
+        "{:?}",
+        outcome.warnings
+    );
     assert_eq!(outcome.accepted_step().count, 6);
 }

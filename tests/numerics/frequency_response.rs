@@ -127,7 +127,10 @@ fn errors_name_the_law_and_the_place() {
     let structure = cantilever(5);
     let coulomb = source(Effect::Coulomb, &[2, 4], &[1.0]);
     let error = DynamicStiffness::new(&structure, &[coulomb]).err().unwrap();
-    assert_eq!(error.to_string(), "the response is not linear because of coulomb@3-5: use harmonic balance");
+    assert_eq!(
+        error.to_string(),
+        "the response is not linear because of Coulomb friction between DOF 3 and 5: use harmonic balance"
+    );
     let far = DynamicStiffness::new(&structure, &[source(Effect::Viscous, &[10], &[1.0])]).err().unwrap();
     assert!(matches!(far, DynamicStiffnessError::Row { row: 10, size: 10, .. }));
     let z = DynamicStiffness::new(&structure, &[]).unwrap();

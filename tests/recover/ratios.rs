@@ -126,5 +126,5 @@ fn ratios_that_cannot_join_are_named() {
     let odd = error(&candidates(), MeasuredRatio { ratio: 1.5, ..good });
     assert!(odd.contains("is 1.5; give one between 0 and 1"), "{odd}");
     let friction = error(&[candidate(Effect::Coulomb, &[2])], good);
-    assert!(friction.starts_with("damping ratios cannot stand beside coulomb at 3"), "{friction}");
+    assert!(friction.starts_with("damping ratios cannot stand beside Coulomb friction at DOF 3"), "{friction}");
 }

@@ -72,7 +72,7 @@ fn a_second_click_on_a_source_changes_its_state() {
     let mut harness = open(&sample, Theme::Light);
     harness.state_mut().view.stage = Stage::Pattern;
     harness.run_steps(3);
-    let label = "Source viscous dashpot, between DOF 1 and 2";
+    let label = "Source viscous dashpot between DOF 1 and 2";
     for _ in 0..2 {
         harness.get_by_label_contains(label).click();
         harness.run_steps(10);

@@ -69,11 +69,11 @@ impl Fingerprint {
     pub(crate) fn sentences(&self) -> Vec<String> {
         let what = if self.damping { "equivalent viscous coefficient" } else { "equivalent stiffness" };
         let law = |p: f64| match (self.damping, p) {
-            (true, p) if p < -0.7 => "dry friction has -1",
+            (true, p) if p < -0.7 => "Coulomb friction has -1",
             (true, p) if p > 0.7 => "quadratic damping has +1",
-            (true, p) if p.abs() < 0.2 => "a viscous or hysteretic damper has 0",
+            (true, p) if p.abs() < 0.2 => "a viscous dashpot or hysteretic damping has 0",
             (false, p) if p > 1.4 => "a cubic spring has +2",
-            (false, p) if p.abs() < 0.2 => "a linear spring or mass has 0",
+            (false, p) if p.abs() < 0.2 => "a spring or a mass has 0",
             _ => "between the simple laws",
         };
         let mut said = Vec::new();
@@ -97,13 +97,13 @@ impl Fingerprint {
         let near = |x: f64, to: f64| (x - to).abs() < 0.3;
         let along = |to: f64| p.is_none_or(|p| near(p, to));
         match (self.damping, q) {
-            (true, q) if near(q, -1.0) && p.is_none() => "dry friction and hysteretic damping have -1",
-            (true, q) if near(q, -1.0) && along(-1.0) => "dry friction, whose force knows no speed, has -1 here too",
+            (true, q) if near(q, -1.0) && p.is_none() => "Coulomb friction and hysteretic damping have -1",
+            (true, q) if near(q, -1.0) && along(-1.0) => "Coulomb friction has -1 here too",
             (true, q) if near(q, -1.0) && along(0.0) => "hysteretic damping has -1",
-            (true, q) if near(q, 0.0) && along(0.0) => "a viscous damper has 0",
+            (true, q) if near(q, 0.0) && along(0.0) => "a viscous dashpot has 0",
             (true, q) if near(q, 1.0) && along(1.0) => "quadratic damping has +1 here too",
             (true, q) if q > -1.0 && q < 0.0 && along(0.0) => {
-                "between hysteretic (-1) and viscous (0), as fractional damping"
+                "between hysteretic damping (-1) and a viscous dashpot (0), as fractional damping"
             }
             (true, q) if p.is_some_and(|p| near(q, p)) => {
                 "the same power as of the amplitude, as of a force of velocity alone"
@@ -128,10 +128,10 @@ mod tests {
 
     #[test]
     fn the_frequency_is_read_beside_the_amplitude() {
-        assert!(said(true, Some(-1.0), -1.0).contains("dry friction"));
+        assert!(said(true, Some(-1.0), -1.0).contains("Coulomb friction"));
         assert!(!said(true, Some(-1.0), -1.0).contains("hysteretic"));
         assert!(said(true, Some(0.0), -1.0).contains("hysteretic damping has -1"));
-        assert!(said(true, None, -1.0).contains("dry friction and hysteretic"));
+        assert!(said(true, None, -1.0).contains("Coulomb friction and hysteretic"));
         assert!(said(true, Some(1.0), 1.0).contains("quadratic"));
         assert!(said(true, Some(0.0), -0.5).contains("fractional"));
         assert!(said(true, Some(0.5), 0.5).contains("velocity alone"));

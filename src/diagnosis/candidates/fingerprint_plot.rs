@@ -71,17 +71,6 @@ pub struct Print {
     pub at_frequency: Option<f64>,
 }
 
-impl Print {
-    /// Powers that simple laws have in this plot, for lines to compare with.
-    pub fn laws(&self) -> &'static [(&'static str, f64)] {
-        match self.measure {
-            Measure::Damping => &[("friction −1", -1.0), ("viscous 0", 0.0), ("quadratic +1", 1.0)],
-            Measure::Stiffness => &[("linear 0", 0.0), ("cubic +2", 2.0)],
-            Measure::Phase | Measure::Ratio => &[],
-        }
-    }
-}
-
 /// The fingerprint of `source` as one effect of the set `found`, with the `corrections` of the model that go with it; none
 /// for the whole structure and where too few runs show it.
 ///

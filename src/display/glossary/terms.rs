@@ -85,7 +85,7 @@ pub const TERMS: &[Term] = &[
     term(
         "Laws",
         &["Law"],
-        "How a source's force follows from the motion there: viscous, dry friction, hysteretic and others.",
+        "How a source's force follows from the motion there: viscous dashpot, Coulomb friction, hysteretic damping and others.",
     ),
     term(
         "Sources",

@@ -39,7 +39,7 @@ fn matrix(values: &Mat<f64>, structure: &Structure) -> String {
 fn sources(identified: &Identified) -> String {
     let mut text = String::from("law,place,state,parameter,value,standard_deviation,unit,energy_percent\n");
     for found in identified.sources {
-        let place = quoted(&found.source.place.labels(identified.structure));
+        let place = quoted(&found.source.place.exported(identified.structure));
         let state = if found.source.state == crate::effects::State::Known { "known" } else { "identified" };
         for (k, parameter) in found.source.effect.parameters().iter().enumerate() {
             text.push_str(&format!(

@@ -19,9 +19,8 @@ pub(super) fn dashpots(identified: &Identified, format: &str) -> (Vec<Dashpot>, 
             let c = source.coefficient();
             found.extend(source.place.legs().into_iter().map(|leg| Dashpot { leg, c }));
         } else {
-            let place = source.place.labels(identified.structure);
-            warnings
-                .push(format!("{} at {place} is not viscous: {format} dashpots cannot hold it", source.effect.title()));
+            let title = source.title(identified.structure);
+            warnings.push(format!("{title} is not viscous: {format} dashpots cannot hold it"));
         }
     }
     (found, warnings)

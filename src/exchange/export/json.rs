@@ -2,7 +2,7 @@
 
 use super::files::Export;
 use super::identified::Identified;
-use crate::effects::{Place, State};
+use crate::effects::State;
 use faer::Mat;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -51,17 +51,13 @@ fn sources(identified: &Identified) -> Vec<Value> {
         .sources
         .iter()
         .map(|found| {
-            let dofs: Vec<&str> = match &found.source.place {
-                Place::Dofs(dofs) => dofs.iter().map(|&d| identified.structure.label(d)).collect(),
-                Place::Whole(_) | Place::Channel(_) => Vec::new(),
-            };
             let names = found.source.effect.parameters().iter().map(|p| p.name);
             let values: Map<String, Value> =
                 names.clone().zip(&found.source.parameters).map(|(n, v)| (n.into(), json!(v))).collect();
             let deviations: Map<String, Value> =
                 names.zip(&found.deviation).map(|(n, v)| (n.into(), json!(v))).collect();
-            json!({"law": found.source.effect.name(), "dofs": dofs,
-                   "place": found.source.place.labels(identified.structure),
+            json!({"law": found.source.effect.name(), "dofs": found.source.place.written(identified.structure).dofs,
+                   "place": found.source.place.exported(identified.structure),
                    "known": found.source.state == State::Known, "parameters": values,
                    "standard_deviation": deviations, "energy_percent": found.energy_percent})
         })

@@ -113,7 +113,7 @@ fn sources(identified: &Identified) -> Vec<u8> {
     for found in identified.sources {
         let parameters: Vec<&str> = found.source.effect.parameters().iter().map(|p| p.name).collect();
         contents.extend(text("", found.source.effect.name()));
-        contents.extend(text("", &found.source.place.labels(identified.structure)));
+        contents.extend(text("", &found.source.place.exported(identified.structure)));
         contents.extend(text("", &parameters.join(" ")));
         contents.extend(column("", &found.source.parameters));
         contents.extend(column("", &found.deviation));

@@ -4,6 +4,7 @@ use super::text::comment;
 use crate::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
 use crate::exchange::mapping::units::LabUnit;
 use crate::exchange::mapping::{ChannelTable, NotMapped, Proposal};
+use crate::math::numerals::rounded;
 use crate::measurement::{Kind, Part, Quantity, Record, proposal};
 use std::f64::consts::TAU;
 
@@ -37,7 +38,7 @@ impl SingleMode {
              and multiply the stiffness by it, or give a model by --mass. Damping ratios do not depend on it.",
             self.frequency_hz, self.channel
         ));
-        let stiffness = format!("{:.6e}", self.stiffness()).parse::<f64>().unwrap_or(self.stiffness());
+        let stiffness = rounded(self.stiffness(), 7);
         format!(
             "[structure]\n{what}kind = \"chain\"\nmasses = [1.0]                # kg\nground_stiffness = [{stiffness:?}] # N/m\ncoupling_stiffness = []\n"
         )

@@ -2,6 +2,7 @@
 //! `lines.csv`.
 
 use crate::exchange::atomic::write_atomically;
+use crate::math::numerals::rounded;
 use crate::structure::imported::ImportedParameters;
 use faer::Mat;
 use std::io;
@@ -9,6 +10,8 @@ use std::path::Path;
 
 /// Part of the largest entry below which an entry is rounding and is left out.
 const ROUNDING: f64 = 1e-14;
+/// Significant digits of an entry or a coordinate: beyond what any structure is known to, and the same on every machine.
+const DIGITS: usize = 12;
 
 /// Writes the files into `folder`, which must exist; gives their names.
 ///
@@ -21,7 +24,7 @@ pub fn write_tables(structure: &ImportedParameters, folder: &Path) -> io::Result
     ];
     if let Some(nodes) = &structure.nodes {
         let row = |n: &crate::structure::Node| {
-            let [x, y, z] = n.position.map(short);
+            let [x, y, z] = n.position.map(|x| rounded(x, DIGITS));
             format!("{},{x},{y},{z}\n", n.label)
         };
         files.push(("nodes.csv", format!("node,x,y,z\n{}", nodes.iter().map(row).collect::<String>())));
@@ -46,13 +49,8 @@ fn market(matrix: &Mat<f64>, what: &str) -> String {
     let entries: Vec<String> = (0..n)
         .flat_map(|j| (j..n).map(move |i| (i, j)))
         .filter(|&(i, j)| matrix[(i, j)].abs() > least)
-        .map(|(i, j)| format!("{} {} {}\n", i + 1, j + 1, short(matrix[(i, j)])))
+        .map(|(i, j)| format!("{} {} {}\n", i + 1, j + 1, rounded(matrix[(i, j)], DIGITS)))
         .collect();
     let head = format!("%%MatrixMarket matrix coordinate real symmetric\n% {what}\n{n} {n} {}\n", entries.len());
     head + &entries.concat()
-}
-
-/// Twelve significant digits: beyond what any structure is known to, and the same on every machine.
-fn short(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }

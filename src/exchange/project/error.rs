@@ -67,8 +67,8 @@ pub enum Problem {
     Newer { found: u64 },
     #[error("{what} is given twice{}; leave one out", first_in(*first))]
     Twice { what: String, first: Option<usize> },
-    #[error("{}", source_twice(*law, place, *first))]
-    SourceTwice { law: Effect, place: String, first: Option<usize> },
+    #[error("{}", source_twice(*law, source_name, *first))]
+    SourceTwice { law: Effect, source_name: String, first: Option<usize> },
     #[error("{table} has no {what}; add {example}")]
     Empty { table: String, what: &'static str, example: &'static str },
     #[error("`{key}` is there without `{other}`; give both or none")]
@@ -132,9 +132,9 @@ fn first_in(line: Option<usize>) -> String {
 }
 
 /// Of a text the lines, of what is drawn the place.
-fn source_twice(law: Effect, place: &str, first: Option<usize>) -> String {
+fn source_twice(law: Effect, source_name: &str, first: Option<usize>) -> String {
     match first {
         Some(_) => format!("law `{law}` at the same place is given twice{}; leave one out", first_in(first)),
-        None => format!("`{law}` is already drawn between the same DOFs ({place}); change that one instead"),
+        None => format!("already drawn: {source_name}; change that one instead"),
     }
 }

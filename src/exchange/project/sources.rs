@@ -29,8 +29,8 @@ pub(crate) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> 
     for (k, table) in file.source.iter().enumerate() {
         let source = single(table, structure).map_err(|problem| wrong(SOURCE, k, problem))?;
         if let Some(first) = sources.iter().position(|other| clashes(other, &source)) {
-            let (place, first) = (place_words(&table.dofs, table.elements), at.lines.of(SOURCE, first, ""));
-            return Err(wrong(SOURCE, k, Problem::SourceTwice { law: table.law, place, first }));
+            let (source_name, first) = (source.phrase(structure), at.lines.of(SOURCE, first, ""));
+            return Err(wrong(SOURCE, k, Problem::SourceTwice { law: table.law, source_name, first }));
         }
         sources.push(source);
     }
@@ -43,17 +43,6 @@ pub(crate) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> 
         }
     }
     Ok(sources)
-}
-
-/// A place in words, as the file names it.
-pub(crate) fn place_words(dofs: &[Label], elements: Option<[i64; 2]>) -> String {
-    let labels: Vec<&str> = dofs.iter().map(|label| label.0.as_str()).collect();
-    match (&labels[..], elements) {
-        ([], Some([first, last])) => format!("elements {first} to {last}"),
-        ([], None) => "the whole structure".into(),
-        ([label], _) => format!("DOF {label} to the ground"),
-        (many, _) => format!("DOFs {}", many.join(", ")),
-    }
 }
 
 /// Whether two written sources cannot both be meant. What is known may have more of the same law found on top of it.

@@ -2,6 +2,7 @@
 
 use super::error::{At, RecordFileError, RecordProblem};
 use crate::exchange::atomic::write_atomically;
+use crate::math::numerals::rounded;
 use crate::measurement::{Channel, Record};
 use crate::structure::Structure;
 use std::fmt::Write as _;
@@ -55,7 +56,7 @@ pub(super) fn quoted(text: &str) -> String {
 /// Writes a number in the shorter of its two notations.
 pub(super) fn push_number(text: &mut String, value: f64, digits: Option<usize>) {
     let value = match digits {
-        Some(digits) => format!("{value:.*e}", digits.clamp(1, 17) - 1).parse().unwrap_or(value),
+        Some(digits) => rounded(value, digits.clamp(1, 17)),
         None => value,
     };
     let plain = format!("{value}");

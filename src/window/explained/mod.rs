@@ -28,7 +28,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Error beyond which a model lacks its damping altogether, and the search waits until it is asked for.
-pub const HOPELESS: f64 = 10.0;
+pub const WITHOUT_DAMPING: f64 = 10.0;
 
 /// A model with or without an effect on trial.
 pub type Tried = (Key, Option<Source>);
@@ -156,7 +156,7 @@ impl Explained {
         self.comparisons.want(ctx, &tried, || compare_job(p, None));
         let Some(Ok(comparison)) = self.comparisons.get(&tried) else { return };
         self.ledger.visit(&key, document.session().document(), comparison);
-        if wanted.diagnosis && (wanted.anyway || comparison.error <= HOPELESS) {
+        if wanted.diagnosis && (wanted.anyway || comparison.error <= WITHOUT_DAMPING) {
             let limit = wanted.limit;
             self.diagnoses.want(ctx, &search, || search_job(p, &search, limit, self.early.expect(ctx, &search)));
         }

@@ -1,6 +1,5 @@
 //! What a comparison depends on, as a key: two documents with the same model and the same measurements share their results.
 
-use crate::display::words::{self, at};
 use crate::effects::{Kind, Source, State};
 use crate::exchange::mapping::ChannelTable;
 use crate::exchange::project::file::{BaseTable, HarmonicsTable, RunTable, SensorTable, StructureTable};
@@ -105,7 +104,7 @@ impl Model {
             return "model corrected".to_owned();
         }
         let mut said: Vec<String> = Vec::new();
-        let name = |s: &Source| format!("{} {}", words::effect(s.effect), at(structure, &s.place));
+        let name = |s: &Source| s.phrase(structure);
         let twin = |list: &[Source], s: &Source| list.iter().find(|other| other.is_same(s)).cloned();
         // What came and went first: where there is much to say, the rest is only counted.
         let new = self.known.iter().filter(|s| twin(&before.known, s).is_none());

@@ -199,7 +199,7 @@ fn dof(ui: &mut Ui, p: &Project, dof: usize) {
     let mut any = false;
     for source in p.sources.iter().filter(here) {
         any = true;
-        ui.pair(words::effect(source.effect), words::place(&p.structure, &source.place));
+        ui.pair(source.effect.noun(), source.place.cell(&p.structure));
     }
     if !any {
         ui.hint("None.");
@@ -208,9 +208,9 @@ fn dof(ui: &mut Ui, p: &Project, dof: usize) {
 
 fn source(ui: &mut Ui, p: &Project, index: usize, asks: &mut Vec<Ask>) {
     let s = &p.sources[index];
-    ui.title("Source", words::effect(s.effect));
+    ui.title("Source", s.effect.noun());
     ui.add_space(space::XS);
-    let place = words::place(&p.structure, &s.place);
+    let place = s.place.cell(&p.structure);
     let ground = matches!(&s.place, Place::Dofs(d) if d.len() == 1);
     ui.pair("Place", if ground { format!("DOF {place}") } else { place });
     ui.add_space(space::XS);

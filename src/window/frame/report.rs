@@ -35,7 +35,7 @@ pub(crate) fn show(ctx: &Context, reporting: &mut Option<ReportChoice>, asks: &m
             ui.add_enabled_ui(any, |ui| {
                 let write = ui.primary("Write…").on_disabled_hover_text(t!("Choose at least one section."));
                 if write.clicked() {
-                    asks.push(Ask::Report(Box::new(choice.wish())));
+                    asks.push(Ask::Report(Box::new(choice.request())));
                     ended = true;
                 }
             });

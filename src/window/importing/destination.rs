@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// What is asked for at the foot of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub enum ImportAction {
     /// Make it.
     Accept,
     /// Forget the files.
@@ -31,8 +31,8 @@ impl Draft {
 }
 
 /// Shows destination, model and buttons.
-pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
-    let mut wish = model(ui, draft);
+pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<ImportAction> {
+    let mut action = model(ui, draft);
     ui.horizontal(|ui| {
         if draft.open.is_some() {
             let into = ui.radio(draft.into, t!("Into this project"));
@@ -53,21 +53,21 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft) -> Option<Wish> {
     ui.horizontal(|ui| {
         let label = if draft.into_open() { "Add to the project" } else { "Make the project" };
         if ui.add_enabled_ui(fault.is_none(), |ui| ui.primary(label)).inner.clicked() {
-            wish = Some(Wish::Accept);
+            action = Some(ImportAction::Accept);
         }
         if ui.button(t!("Cancel")).clicked() {
-            wish = Some(Wish::Cancel);
+            action = Some(ImportAction::Cancel);
         }
         match fault {
             Some(fault) => ui.add(egui::Label::new(egui::RichText::new(tr(fault)).color(ui.palette().warning)).wrap()),
             None => ui.hint("The mapping is kept in the project; further files of this layout are read by it."),
         };
     });
-    wish
+    action
 }
 
 /// The finite-element model, where there is one.
-fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
+fn model(ui: &mut Ui, draft: &Draft) -> Option<ImportAction> {
     if draft.into_open() {
         return None;
     }
@@ -78,7 +78,7 @@ fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
         Some(format!("{what} {name}"))
     });
     let named: Vec<String> = named.collect();
-    let mut wish = None;
+    let mut action = None;
     ui.horizontal(|ui| {
         ui.hint("Model");
         if named.is_empty() {
@@ -87,13 +87,13 @@ fn model(ui: &mut Ui, draft: &Draft) -> Option<Wish> {
         } else {
             ui.label(tr(named.join(", ")));
             if ui.button(t!("Without")).clicked() {
-                wish = Some(Wish::NoModel);
+                action = Some(ImportAction::NoModel);
             }
         }
         let what = "Mass and stiffness of NASTRAN (bulk data, punch, OUTPUT4), Abaqus or CalculiX, or Matrix Market, and nodes.";
         if ui.button(t!("Choose files…")).on_hover_text(tr(what)).clicked() {
-            wish = Some(Wish::Model);
+            action = Some(ImportAction::Model);
         }
     });
-    wish
+    action
 }

@@ -32,8 +32,8 @@ pub fn show(ui: &mut Ui, importing: &mut Importing, asks: &mut Vec<Ask>) {
     let pane = |margin| Frame::new().fill(palette.pane).inner_margin(margin);
     Panel::bottom("import foot").frame(pane(Margin::symmetric(14, 8))).show(ui, |ui| {
         ui.add_enabled_ui(!busy, |ui| {
-            if let Some(wish) = destination::show(ui, draft) {
-                asks.push(Ask::Importing(wish));
+            if let Some(action) = destination::show(ui, draft) {
+                asks.push(Ask::Importing(action));
             }
         });
     });

@@ -12,6 +12,7 @@ use super::plots::show::Stack;
 use super::theme::{Palette, space};
 use super::widgets::UiExt;
 use crate::display::{format, words};
+use crate::effects::Effect;
 use crate::plots::figure::Figure;
 use crate::response::portrait::Portrait;
 use crate::window::language::{numbers, t, tr};
@@ -51,7 +52,7 @@ fn choices(ui: &mut Ui, lesson: &mut Lesson, asks: &mut Vec<Ask>) {
         *lesson = Lesson::new(system, lesson.effect);
     }
     ui.hint(lesson.system.values());
-    if let Some(effect) = ui.choice("Law", lesson.effect, &Lesson::laws(), words::effect) {
+    if let Some(effect) = ui.choice("Law", lesson.effect, &Lesson::laws(), Effect::noun) {
         *lesson = Lesson { at: lesson.at, ..Lesson::new(lesson.system, effect) };
     }
     ui.hint(lesson.effect.sentence());
@@ -153,7 +154,7 @@ fn plots(ui: &mut Ui, portrait: &Portrait, lesson: &Lesson) {
                     ui.vertical(|ui| {
                         ui.set_width(size.x);
                         ui.title(cell.title, &cell.remark);
-                        let title = format!("{}, {}", cell.title, words::effect(lesson.effect));
+                        let title = format!("{}, {}", cell.title, lesson.effect.noun());
                         ui.allocate_ui(vec2(size.x, size.y - 30.0), |ui| match cell.figures {
                             Ok(figures) => Stack { id: cell.title, title: &title, figures, keys: true }.show(ui),
                             Err(why) => ui.empty("Not for this law", &why),

@@ -156,7 +156,7 @@ pub fn offer(
     if (hovered || focused) && copied(ctx) {
         copy(ctx, title, table());
     }
-    for kind in take_wishes(ctx, title) {
+    for kind in take_requests(ctx, title) {
         let drawing = Some(draw(ui.palette()));
         ask(ctx, Asked { title: title.to_owned(), kind, drawing, table: table() });
     }
@@ -189,7 +189,7 @@ pub(super) fn over_plot(ctx: &Context) -> bool {
 }
 
 /// The kinds of files that were asked of a title, which are not asked again.
-pub(super) fn take_wishes(ctx: &Context, title: &str) -> Vec<Kind> {
+pub(super) fn take_requests(ctx: &Context, title: &str) -> Vec<Kind> {
     let wanted: Wanted = ctx.data(|d| d.get_temp(wanted_id())).unwrap_or_default();
     let (own, others): (Wanted, Wanted) = wanted.into_iter().partition(|(t, _)| t == title);
     if !own.is_empty() {

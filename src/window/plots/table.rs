@@ -6,9 +6,9 @@ use crate::window::language::{t, tf};
 use egui::containers::menu::menu_style;
 use egui::{Align, Context, Id, Layout, Popup, PopupAnchor, PopupKind, Rect, SetOpenCommand, Ui};
 
-/// What is wanted of a table.
+/// Where a table goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wish {
+pub(crate) enum TableAction {
     /// On the clipboard, with tabs.
     Copy,
     /// In a file.
@@ -25,7 +25,7 @@ pub(crate) fn shown(ctx: &Context) -> Vec<String> {
 }
 
 /// Offers the table of that title in the pane `area`; gives back what is wanted of it in this frame.
-pub(crate) fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
+pub(crate) fn offer(ui: &Ui, area: Rect, title: &str) -> Option<TableAction> {
     let ctx = ui.ctx();
     export::register(ctx, shown_id(), title);
     // A plot in the pane has keys and a menu of its own.
@@ -36,34 +36,34 @@ pub(crate) fn offer(ui: &Ui, area: Rect, title: &str) -> Option<Wish> {
     let focused = export::is_focused(ctx, area) && !export::plot_has_focus(ctx);
     let opened = over && ctx.input(|i| i.pointer.secondary_clicked());
     let chosen = menu(ui, title, opened);
-    if !export::take_wishes(ctx, title).is_empty() {
-        return Some(Wish::Csv);
+    if !export::take_requests(ctx, title).is_empty() {
+        return Some(TableAction::Csv);
     }
-    chosen.or(((over || focused) && export::copied(ctx)).then_some(Wish::Copy))
+    chosen.or(((over || focused) && export::copied(ctx)).then_some(TableAction::Copy))
 }
 
 /// Does what is wanted with the text of the table, columns separated by tabs.
-pub(crate) fn give(ctx: &Context, title: &str, wish: Wish, text: String) {
-    match wish {
-        Wish::Copy => export::copy(ctx, title, text),
-        Wish::Csv => export::write_table(ctx, title, text),
+pub(crate) fn give(ctx: &Context, title: &str, action: TableAction, text: String) {
+    match action {
+        TableAction::Copy => export::copy(ctx, title, text),
+        TableAction::Csv => export::write_table(ctx, title, text),
     }
 }
 
-fn menu(ui: &Ui, title: &str, opened: bool) -> Option<Wish> {
+fn menu(ui: &Ui, title: &str, opened: bool) -> Option<TableAction> {
     let (ctx, id) = (ui.ctx().clone(), ui.scope_id().with("table menu"));
     let entries = |ui: &mut Ui| {
-        let mut wish = None;
+        let mut action = None;
         let copy = egui::Button::new(t!("Copy table")).shortcut_text(ui.ctx().format_shortcut(&COPY));
         let copy = ui.add(copy).on_hover_text(t!("With tabs, for a spreadsheet: SI units, all digits."));
         copy.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, t!("Copy table")));
         if copy.clicked() {
-            wish = Some(Wish::Copy);
+            action = Some(TableAction::Copy);
         }
         if ui.button(t!("Export table as CSV…")).clicked() {
-            wish = Some(Wish::Csv);
+            action = Some(TableAction::Csv);
         }
-        wish
+        action
     };
     Popup::new(id, ctx, PopupAnchor::PointerFixed, ui.layer_id())
         .kind(PopupKind::Menu)

@@ -3,7 +3,6 @@
 use super::Scene;
 use super::gesture::Intent;
 use super::hit::Target;
-use crate::display::words;
 use crate::effects::{Effect, State};
 use crate::session::Command;
 use crate::window::edits::Edit;
@@ -33,7 +32,7 @@ fn dof(ui: &mut Ui, scene: &Scene, dof: usize) -> Option<Intent> {
     let mut chosen = None;
     // All others are in the palette.
     for law in Effect::ALL.into_iter().filter(|law| law.description().usual) {
-        if ui.button(tf!("Candidate: {} to the ground", words::effect(law))).clicked() {
+        if ui.button(tf!("Candidate: {} to the ground", law.noun())).clicked() {
             chosen = Some(Intent::Edit(Edit::Draw(law, vec![dof])));
         }
     }
@@ -50,7 +49,7 @@ fn dof(ui: &mut Ui, scene: &Scene, dof: usize) -> Option<Intent> {
 
 fn source(ui: &mut Ui, scene: &Scene, slot: usize) -> Option<Intent> {
     let source = scene.sources.get(slot)?;
-    ui.hint(words::effect(source.effect));
+    ui.hint(source.effect.noun());
     let mut chosen = None;
     for state in [State::Candidate, State::Forced, State::Known, State::Off] {
         if ui.selectable_label(source.state == state, tr(state.word())).clicked() {

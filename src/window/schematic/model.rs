@@ -53,6 +53,8 @@ pub struct SceneSource {
     pub state: State,
     /// Identified value in the step that is shown, as text with unit.
     pub identified: Option<String>,
+    /// Law and place in words: `viscous dashpot at DOF 7`.
+    pub name: String,
     /// Whether it is no source of the project but one that is suggested.
     pub suggested: bool,
 }
@@ -98,7 +100,7 @@ impl Scene {
             on_moving_base: false,
         };
         scene.set_runs(runs);
-        scene.set_sources(sources);
+        scene.set_sources(structure, sources);
         scene
     }
 
@@ -139,7 +141,7 @@ impl Scene {
         }
     }
 
-    fn set_sources(&mut self, sources: &[Source]) {
+    fn set_sources(&mut self, structure: &Structure, sources: &[Source]) {
         let on_dofs = |(index, source): (usize, &Source)| match &source.place {
             Place::Dofs(dofs) if !dofs.is_empty() => Some(SceneSource {
                 index,
@@ -147,6 +149,7 @@ impl Scene {
                 dofs: dofs.clone(),
                 state: source.state,
                 identified: None,
+                name: source.phrase(structure),
                 suggested: false,
             }),
             _ => None,

@@ -225,18 +225,12 @@ impl View<'_> {
         canvas.clone().on_hover_text_at_pointer(tr(text));
     }
 
-    /// What a source is, in words: `Source viscous, DOF 7 to ground, candidate`.
+    /// What a source is, in words: `Source viscous dashpot at DOF 7, candidate`.
     fn name(&self, slot: usize) -> String {
         let source = &self.scene.sources[slot];
-        let labels: Vec<&str> = source.dofs.iter().map(|&d| self.scene.dofs[d].label.as_str()).collect();
-        let place = match labels[..] {
-            [one] => format!("DOF {one} to ground"),
-            [a, b] => format!("between DOF {a} and {b}"),
-            _ => format!("chain {}", labels.join("–")),
-        };
         let state = if source.suggested { "suggested" } else { source.state.word() };
         let value = source.identified.as_ref().map_or_else(String::new, |v| format!(", {v}"));
-        format!("Source {}, {place}, {state}{value}", crate::display::words::effect(source.effect))
+        format!("Source {}, {state}{value}", source.name)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::identified;
 use super::result::widest;
 use crate::display::units::{self, Damping};
-use crate::display::{change as said, format, words};
+use crate::display::{change as said, format};
 use crate::identify::change::{ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, sessions};
 use crate::window::ask::Ask;
@@ -72,7 +72,7 @@ fn answer(ui: &mut Ui, compared: &Compared, against: &Against) {
     ui.label(RichText::new(tr(said::sentence(structure, change))).color(colour));
     ui.add_space(space::XS);
     let source = |s: &SourceChange| Row {
-        name: format!("{} {}", words::effect(s.source.effect), words::short_place(structure, &s.source.place)),
+        name: format!("{} {}", s.source.effect.noun(), s.source.place.short_cell(structure)),
         unit: format::pretty_unit(&units::shown(said::unit(s)).1),
         pair: scaled(&s.coefficient, units::shown(said::unit(s)).0),
     };

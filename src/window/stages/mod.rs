@@ -63,10 +63,10 @@ pub fn show(ui: &mut Ui, pane: Pane, opened: &mut Opened<'_>, asks: &mut Vec<Ask
         Pane::Ledger => explain::panes::way(ui, opened, asks),
     }
     if TABLES.contains(&pane)
-        && let Some(wish) = tabled::offer(ui, ui.max_rect(), pane.title())
+        && let Some(action) = tabled::offer(ui, ui.max_rect(), pane.title())
     {
         match table(ui, pane, opened) {
-            Some(text) => tabled::give(ui.ctx(), pane.title(), wish, text),
+            Some(text) => tabled::give(ui.ctx(), pane.title(), action, text),
             None => asks.push(Ask::Refuse(format!("{}: there is no table yet.", pane.title()))),
         }
     }

@@ -1,6 +1,5 @@
 //! Pattern: the palette of laws, families at one click, the list of sources.
 
-use crate::display::words;
 use crate::effects::{Effect, Family, Kind, Source, State};
 use crate::exchange::Project;
 use crate::window::ask::Ask;
@@ -121,7 +120,7 @@ fn families(ui: &mut Ui, law: Effect, asks: &mut Vec<Ask>) {
 fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec2) -> bool {
     let palette = ui.palette();
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let name = words::effect(effect);
+    let name = effect.noun();
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, tr(name)));
     let lit = chosen || response.hovered() || response.has_focus();
     let fill = if chosen { palette.accent_faint } else { palette.canvas };
@@ -137,7 +136,7 @@ fn tile(ui: &mut Ui, effect: Effect, chosen: bool, words: Arc<Galley>, size: Vec
 
 /// The name of a law under its symbol, on several lines where it is long.
 fn law_name(ui: &Ui, effect: Effect, width: f32) -> Arc<Galley> {
-    let (text, font) = (tr(words::effect(effect)), theme::font(size::SMALL));
+    let (text, font) = (tr(effect.noun()), theme::font(size::SMALL));
     let mut job = LayoutJob::simple(text, font, ui.palette().ink, width - 8.0);
     job.halign = Align::Center;
     ui.painter().layout_job(job)
@@ -177,7 +176,7 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
     ui.add_space(space::XS);
     ui.style_mut().interaction.selectable_labels = false;
     let width = ui.available_width();
-    let laws = super::result::widest(ui, p.sources.iter().map(|s| words::effect(s.effect).to_owned()));
+    let laws = super::result::widest(ui, p.sources.iter().map(|s| s.effect.noun().to_owned()));
     TableBuilder::new(ui)
         .striped(true)
         .sense(Sense::click())
@@ -201,8 +200,8 @@ fn list(ui: &mut Ui, p: &Project, view: &View, asks: &mut Vec<Ask>) -> Option<us
                     let (rect, _) = ui.allocate_exact_size(vec2(46.0, space::ROW), Sense::hover());
                     symbols::draw(ui.painter(), s.effect, [rect.left_center(), rect.right_center()], stroke);
                 });
-                row.col(|ui| drop(ui.label(tr(words::effect(s.effect)))));
-                row.col(|ui| drop(ui.label(tr(words::place(&p.structure, &s.place)))));
+                row.col(|ui| drop(ui.label(tr(s.effect.noun()))));
+                row.col(|ui| drop(ui.label(tr(s.place.cell(&p.structure)))));
                 row.col(|ui| drop(ui.pill(s.state.word(), stroke.color)));
                 if localised(row.response(), p, s).clicked() {
                     chosen = Some(index);

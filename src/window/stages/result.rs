@@ -128,7 +128,7 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
             let source = p.sources.get(estimate.source)?;
             let known = source.state == crate::effects::State::Known;
             Some(Bar {
-                name: format!("{} {}", words::effect(source.effect), words::short_place(&p.structure, &source.place)),
+                name: format!("{} {}", source.effect.noun(), source.place.short_cell(&p.structure)),
                 share: 0.01 * estimate.energy_percent,
                 colour: if known { palette.weak } else { palette.model },
             })
@@ -158,8 +158,8 @@ fn shares(ui: &mut Ui, p: &Project, outcome: &Outcome) {
         ui.title("Coefficients", "with one standard deviation");
         for estimate in largest_first {
             let Some(source) = p.sources.get(estimate.source) else { continue };
-            let place = words::place(&p.structure, &source.place);
-            ui.pair(&format!("{} {place}", words::effect(source.effect)), words::coefficient(source, estimate));
+            let place = source.place.cell(&p.structure);
+            ui.pair(&format!("{} {place}", source.effect.noun()), words::coefficient(source, estimate));
         }
         for warning in &outcome.warnings {
             ui.add_space(space::XS);
@@ -261,7 +261,7 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
                 .on_hover_text(t!("Columns are separated by tabs, as spreadsheets want them."))
                 .clicked()
             {
-                tabled::give(ui.ctx(), "Values", tabled::Wish::Copy, tables::coefficients(p, &outcome));
+                tabled::give(ui.ctx(), "Values", tabled::TableAction::Copy, tables::coefficients(p, &outcome));
             }
         });
     });
@@ -269,8 +269,8 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
     ui.style_mut().interaction.selectable_labels = false;
     let width = ui.available_width();
     let known = || outcome.sources.iter().filter_map(|e| Some((p.sources.get(e.source)?, e)));
-    let laws = widest(ui, known().map(|(s, _)| words::effect(s.effect).to_owned()));
-    let places = widest(ui, known().map(|(s, _)| words::place(&p.structure, &s.place)));
+    let laws = widest(ui, known().map(|(s, _)| s.effect.noun().to_owned()));
+    let places = widest(ui, known().map(|(s, _)| s.place.cell(&p.structure)));
     let values = widest(ui, known().map(|(s, e)| words::coefficient(s, e))).max(80.0);
     // The share of energy stands in its own pane, the law on the schematic: both go before a value is cut.
     let gap = ui.spacing().item_spacing.x;
@@ -294,8 +294,8 @@ pub(crate) fn values(ui: &mut Ui, opened: &mut Opened<'_>) {
             body.rows(space::ROW, outcome.sources.len(), |mut row| {
                 let estimate = &outcome.sources[row.index()];
                 let Some(source) = p.sources.get(estimate.source) else { return };
-                row.col(|ui| if_there(with_law, || ui.label(tr(words::effect(source.effect)))));
-                row.col(|ui| drop(ui.label(tr(words::place(&p.structure, &source.place)))));
+                row.col(|ui| if_there(with_law, || ui.label(tr(source.effect.noun()))));
+                row.col(|ui| drop(ui.label(tr(source.place.cell(&p.structure)))));
                 row.col(|ui| drop(ui.number(words::coefficient(source, estimate))));
                 row.col(|ui| if_there(with_share, || ui.number(format::percent(0.01 * estimate.energy_percent))));
             });

@@ -123,7 +123,7 @@ pub(crate) fn status(status: Status) -> &'static str {
 pub(crate) fn in_words(p: &Project, sources: impl Iterator<Item = usize>) -> String {
     let mut laws: Vec<(&'static str, Vec<String>)> = Vec::new();
     for source in sources.filter_map(|s| p.sources.get(s)) {
-        let (law, place) = (words::effect(source.effect), words::short_place(&p.structure, &source.place));
+        let (law, place) = (source.effect.noun(), source.place.short_cell(&p.structure));
         match laws.iter_mut().find(|(l, _)| *l == law) {
             Some((_, places)) => places.push(place),
             None => laws.push((law, vec![place])),
@@ -257,8 +257,8 @@ fn details(ui: &mut Ui, p: &Project, step: &SelectionStep, asks: &mut Vec<Ask>) 
             }
             ui.vertical(|ui| {
                 ui.spacing_mut().item_spacing.y = 1.0;
-                let place = words::short_place(&p.structure, &source.place);
-                ui.label(tf!("{} {place}", words::effect(source.effect)));
+                let place = source.place.short_cell(&p.structure);
+                ui.label(tf!("{} {place}", source.effect.noun()));
                 ui.hint(format!("{},  {share} of the energy", words::coefficient(source, estimate)));
             });
         });

@@ -1,13 +1,12 @@
 //! One suggestion: symbol, law and place, size, probability, error before and after, evidence, fingerprint, buttons.
 
-use super::deed::Deed;
 use super::gauge::Gauge;
+use super::request::Request;
 use super::scene::Scene;
 use super::{fingerprint, force};
 use crate::diagnosis::result::Suggestion;
 use crate::display::findings;
 use crate::display::format::{self, chance};
-use crate::display::words;
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
 use crate::window::explained::Standing;
@@ -166,7 +165,7 @@ impl Card<'_> {
     }
 
     /// What explains the data as well: effects as simple are a warning, those with more parameters only not needed.
-    fn rivals(&self, ui: &mut Ui) {
+    fn alternatives(&self, ui: &mut Ui) {
         let own = self.suggestion.added.source.parameters.len();
         let all = self.suggestion.indistinguishable_from.iter();
         let (needless, equal): (Vec<&Source>, Vec<&Source>) = all.partition(|o| o.parameters.len() > own);
@@ -190,10 +189,10 @@ impl Card<'_> {
         Gauge { before, after, held_out, floor }.show(ui);
         self.buttons(ui, on_trial, asks);
         if self.is_provisional() {
-            ui.hint("Left-out runs, rivals and fingerprint follow when the search has ended.");
+            ui.hint("Left-out runs, alternatives and fingerprint follow when the search has ended.");
             return;
         }
-        self.rivals(ui);
+        self.alternatives(ui);
         force::show(ui, self.scene, Some(&s.added.source));
         self.fingerprint(ui);
         for sentence in &s.evidence {
@@ -253,17 +252,17 @@ impl Card<'_> {
         ui.horizontal_wrapped(|ui| {
             let tip = "Shows the map and the curves as they would be; nothing is saved.";
             if ui.add(egui::Button::new(t!("Try")).selected(on_trial)).on_hover_text(tr(tip)).clicked() {
-                asks.push(Ask::Explain(if on_trial { Deed::Stop } else { Deed::Try(source.clone()) }));
+                asks.push(Ask::Explain(if on_trial { Request::Stop } else { Request::Try(source.clone()) }));
             }
             let tip = "Puts the effect into the model as known; undo takes it back.";
             let wait = "Its size is not final: it can be added when the search has ended. Try shows what it would do.";
             let add = ui.add_enabled_ui(!self.is_provisional(), |ui| ui.primary("Add")).inner;
             if add.on_hover_text(tr(tip)).on_disabled_hover_text(tr(wait)).clicked() {
-                asks.push(Ask::Explain(Deed::Add(source.clone())));
+                asks.push(Ask::Explain(Request::Add(source.clone())));
             }
             let tip = "Rules this effect out at this place and searches for what else it could be; undo takes it back.";
             if ui.button(t!("Not this")).on_hover_text(tr(tip)).clicked() {
-                asks.push(Ask::Explain(Deed::Exclude(source.clone())));
+                asks.push(Ask::Explain(Request::Exclude(source.clone())));
             }
         });
     }
@@ -271,7 +270,7 @@ impl Card<'_> {
 
 /// `Coulomb friction at DOF 15`.
 pub(super) fn name(scene: &Scene<'_>, source: &Source) -> String {
-    words::title(&scene.document.project.structure, source)
+    source.title(&scene.document.project.structure)
 }
 
 /// The symbol of an effect between its ends, with the ground where it is held there.

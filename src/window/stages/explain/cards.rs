@@ -1,8 +1,8 @@
 //! What is missing? The verdict, the ranked suggestions as cards, and what the user has ruled out.
 
-use super::deed::Deed;
 use super::look::Look;
 use super::ranking::{open, ranked};
+use super::request::Request;
 use super::scene::Scene;
 use super::{card, channels, force, limit};
 use crate::diagnosis::Diagnosis;
@@ -10,13 +10,12 @@ use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::display::findings::{self, is_detuned, is_stuck, sentence_of};
 use crate::display::format::in_words;
-use crate::display::words::at;
 use crate::display::{format, words};
 use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;
 use crate::window::app::Ask;
-use crate::window::explained::{HOPELESS, Standing};
+use crate::window::explained::{Standing, WITHOUT_DAMPING};
 use crate::window::language::{t, tr};
 use crate::window::theme::{self, size, space};
 use crate::window::widgets::UiExt;
@@ -36,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
             ui.horizontal(|ui| {
                 ui.label(t!("The search was cancelled."));
                 if ui.button(t!("Search again")).clicked() {
-                    asks.push(Ask::Explain(Deed::Retry));
+                    asks.push(Ask::Explain(Request::Retry));
                 }
             });
             so_far(ui, scene, look, asks);
@@ -60,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, limit_s: Opt
         Some(Err(error)) => {
             ui.colored_label(ui.palette().error, tr(error));
             if ui.button(t!("Search again")).clicked() {
-                asks.push(Ask::Explain(Deed::Retry));
+                asks.push(Ask::Explain(Request::Retry));
             }
         }
         Some(Ok(diagnosis)) => {
@@ -77,10 +76,10 @@ fn waiting(ui: &mut Ui, identified: bool, asks: &mut Vec<Ask>) {
     ui.horizontal_wrapped(|ui| {
         let tip = "Makes the identified sources known at their values, and searches for what is missing beside them.";
         if identified && ui.primary("Add them and search").on_hover_text(tr(tip)).clicked() {
-            asks.push(Ask::Explain(Deed::TakeOver));
+            asks.push(Ask::Explain(Request::TakeOver));
         }
         if ui.button(t!("Search anyway")).clicked() {
-            asks.push(Ask::Explain(Deed::Search));
+            asks.push(Ask::Explain(Request::Search));
         }
     });
 }
@@ -118,7 +117,7 @@ fn so_far(ui: &mut Ui, scene: &Scene<'_>, look: &mut Look, asks: &mut Vec<Ask>) 
 /// Whether the model is so far from the data that it lacks its damping altogether.
 fn far_off(scene: &Scene<'_>) -> bool {
     let comparison = scene.explained.comparison(scene.document).and_then(|c| c.as_ref().ok());
-    comparison.is_some_and(|c| c.error > HOPELESS)
+    comparison.is_some_and(|c| c.error > WITHOUT_DAMPING)
 }
 
 fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look, asks: &mut Vec<Ask>) {
@@ -193,7 +192,7 @@ fn detuned(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec
         let tip = "Multiplies what the project states by these factors. Undo takes it back.";
         let can = !adopted.commands.is_empty();
         if ui.add_enabled(can, Button::new(t!("Correct the model"))).on_hover_text(tr(tip)).clicked() {
-            asks.push(Ask::Explain(Deed::Correct));
+            asks.push(Ask::Explain(Request::Correct));
         }
         if !adopted.left.is_empty() {
             let left: Vec<String> = adopted
@@ -284,11 +283,11 @@ fn excluded(ui: &mut Ui, scene: &Scene<'_>, excluded: &[Source], asks: &mut Vec<
     let structure = &scene.document.project.structure;
     for source in excluded {
         ui.horizontal(|ui| {
-            let name = format!("{} {}", words::effect(source.effect), at(structure, &source.place));
+            let name = source.phrase(structure);
             ui.label(RichText::new(tr(name)).strikethrough().color(ui.palette().weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui.button(t!("Take back")).clicked() {
-                    asks.push(Ask::Explain(Deed::Restore(source.clone())));
+                    asks.push(Ask::Explain(Request::Restore(source.clone())));
                 }
             });
         });

@@ -1,12 +1,10 @@
-//! What a deed of the stage changes in the project, and what is said of it.
+//! What a request of the stage changes in the project, and what is said of it.
 
 use super::cards;
-use super::deed::Deed;
+use super::request::Request;
 use super::scene::Scene;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::updating::correction::Correction;
-use crate::display::words;
-use crate::display::words::at;
 use crate::effects::{Effect, Place, Source};
 use crate::identify::Outcome;
 use crate::session::adoption::Adoption;
@@ -40,52 +38,52 @@ impl Change {
     }
 }
 
-/// What a deed changes in the project; nothing where it only changes what is looked at or searched.
+/// What a request changes in the project; nothing where it only changes what is looked at or searched.
 ///
 /// # Errors
 /// One sentence that says why it cannot be done.
-pub(crate) fn change(deed: &Deed, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
+pub(crate) fn change(request: &Request, document: &Document, derived: &Derived) -> Result<Option<Change>, String> {
     let scene = &Scene { document, explained: &derived.explained };
     let known = || scene.known();
     let found = scene.diagnosis();
-    match deed {
-        Deed::Add(source) => add(scene, source).map(Some),
-        Deed::Exclude(source) => Ok(Some(rule_out(document, source))),
-        Deed::Restore(source) => Ok(Some(allow(document, source))),
-        Deed::TakeOver => take_over(scene, derived.known_outcome(document)).map(Some),
-        Deed::Correct => {
+    match request {
+        Request::Add(source) => add(scene, source).map(Some),
+        Request::Exclude(source) => Ok(Some(rule_out(document, source))),
+        Request::Restore(source) => Ok(Some(allow(document, source))),
+        Request::TakeOver => take_over(scene, derived.known_outcome(document)).map(Some),
+        Request::Correct => {
             let all = |found| Change::adopting(scene, "The model is corrected.", |a| a.corrections(found, &known()));
             found.map(all).transpose()
         }
-        Deed::CorrectOne(k) => {
+        Request::CorrectOne(k) => {
             let single = |found: &Correction| {
                 let done = format!("Corrected: {}.", cards::corrected(scene, &found.parameter));
                 Change::adopting(scene, &done, |a| a.correction(found, &known()))
             };
             found.and_then(|found| found.corrections.get(*k)).map(single).transpose()
         }
-        Deed::CorrectSensor { channel, gain, delay } => correct_sensor(scene, channel, [*gain, *delay]).map(Some),
-        Deed::Mend(k) => {
+        Request::CorrectSensor { channel, gain, delay } => correct_sensor(scene, channel, [*gain, *delay]).map(Some),
+        Request::Mend(k) => {
             let mended = |fault: &ChannelFault| {
                 let done = format!("Mended: {}.", fault.words());
                 Change::adopting(scene, &done, |a| a.fault(fault, &document.project))
             };
             found.and_then(|found| found.channel_faults.get(*k)).map(mended).transpose()
         }
-        Deed::Try(_)
-        | Deed::Stop
-        | Deed::Return(_)
-        | Deed::Retry
-        | Deed::Hurry
-        | Deed::Limit(_)
-        | Deed::SearchOn
-        | Deed::Search => Ok(None),
+        Request::Try(_)
+        | Request::Stop
+        | Request::Return(_)
+        | Request::Retry
+        | Request::Hurry
+        | Request::Limit(_)
+        | Request::SearchOn
+        | Request::Search => Ok(None),
     }
 }
 
 /// `Coulomb friction at DOF 7`.
 fn named(document: &Document, source: &Source) -> String {
-    format!("{} {}", words::effect(source.effect), at(&document.project.structure, &source.place))
+    source.phrase(&document.project.structure)
 }
 
 /// Puts an effect into the model, as it was promised where it was suggested.

@@ -1,6 +1,6 @@
 //! Channels that were found to read wrongly: said before all else, each mended by one click.
 
-use super::deed::Deed;
+use super::request::Request;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::display::format::in_words;
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
                 if is_mendable(fault) {
                     let tip = "Writes it into the mapping of the channel. Undo takes it back.";
                     if ui.primary("Mend").on_hover_text(tr(tip)).clicked() {
-                        asks.push(Ask::Explain(Deed::Mend(k)));
+                        asks.push(Ask::Explain(Request::Mend(k)));
                     }
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {

@@ -2,7 +2,7 @@
 //! the project has a number for is taken over one by one.
 
 use super::cards;
-use super::deed::Deed;
+use super::request::Request;
 use super::scene::Scene;
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::updating::correction::Correction;
@@ -166,7 +166,7 @@ fn correction(ui: &mut Ui, scene: &Scene<'_>, (k, correction): (usize, &Correcti
     let row = Row { name: &name, value: findings::change(correction), deviations };
     let adopted = adopt(std::slice::from_ref(correction), &scene.known(), scene.document.session().document());
     if row.show(ui, Some((&name, !adopted.commands.is_empty()))) {
-        asks.push(Ask::Explain(Deed::CorrectOne(k)));
+        asks.push(Ask::Explain(Request::CorrectOne(k)));
     }
 }
 
@@ -179,14 +179,14 @@ fn channels(ui: &mut Ui, scatter: &Scatter, asks: &mut Vec<Ask>) {
         let name = format!("Gain of {channel}");
         let row = Row { name: &name, value: percent(*gain), deviations: gain.deviations() };
         if row.show(ui, Some((&name, true))) {
-            asks.push(Ask::Explain(Deed::CorrectSensor { channel: channel.clone(), gain: gain.value, delay: 0.0 }));
+            asks.push(Ask::Explain(Request::CorrectSensor { channel: channel.clone(), gain: gain.value, delay: 0.0 }));
         }
         let Some(delay) = delay else { continue };
         let name = format!("Delay of {channel}");
         let value = format::with_deviation(1e6 * delay.value, 1e6 * delay.deviation, "µs");
         let row = Row { name: &name, value, deviations: delay.deviations() };
         if row.show(ui, Some((&name, true))) {
-            asks.push(Ask::Explain(Deed::CorrectSensor { channel: channel.clone(), gain: 0.0, delay: delay.value }));
+            asks.push(Ask::Explain(Request::CorrectSensor { channel: channel.clone(), gain: 0.0, delay: delay.value }));
         }
     }
     ui.add_space(space::S);

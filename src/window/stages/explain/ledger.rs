@@ -1,7 +1,7 @@
 //! The ledger: error against steps on a logarithmic axis with the noise floor, and the steps by name, each a way back.
 
 use super::cards;
-use super::deed::Deed;
+use super::request::Request;
 use super::scene::Scene;
 use crate::diagnosis::result::Verdict;
 use crate::display::findings::is_stuck;
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, asks: &mut Vec<Ask>) {
     ScrollArea::vertical().id_salt("ledger").auto_shrink(false).show(ui, |ui| {
         for k in 0..ledger.steps().len() {
             if row(ui, ledger, k) && k != ledger.current() {
-                asks.push(Ask::Explain(Deed::Return(k)));
+                asks.push(Ask::Explain(Request::Return(k)));
             }
         }
         ui.add_space(space::XS);

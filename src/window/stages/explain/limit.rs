@@ -1,6 +1,6 @@
 //! The time limit of the search for what is missing: its setting, and what is said where a search was ended before its time.
 
-use super::deed::Deed;
+use super::request::Request;
 use crate::window::app::Ask;
 use crate::window::language::{t, tr};
 use crate::window::theme::space;
@@ -34,7 +34,7 @@ pub(super) fn setting(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<Ask>) {
         list.response.widget_info(said);
         list.response.on_hover_text(t!("After this time a search answers with the best that it has found so far."));
         if chosen != limit_s {
-            asks.push(Ask::Explain(Deed::Limit(chosen)));
+            asks.push(Ask::Explain(Request::Limit(chosen)));
         }
     });
 }
@@ -44,7 +44,7 @@ pub(super) fn while_searching(ui: &mut Ui, limit_s: Option<f64>, asks: &mut Vec<
     setting(ui, limit_s, asks);
     let tip = "Ends the search with the best that it has found so far.";
     if ui.button(t!("Answer with the best so far")).on_hover_text(tr(tip)).clicked() {
-        asks.push(Ask::Explain(Deed::Hurry));
+        asks.push(Ask::Explain(Request::Hurry));
     }
     ui.add_space(space::XS);
 }
@@ -56,7 +56,7 @@ pub(super) fn best_so_far(ui: &mut Ui, asks: &mut Vec<Ask>) {
         ui.label(RichText::new(tr(said)).color(ui.palette().warning));
         let tip = "Searches again without a time limit.";
         if ui.button(t!("Search to the end")).on_hover_text(tr(tip)).clicked() {
-            asks.push(Ask::Explain(Deed::SearchOn));
+            asks.push(Ask::Explain(Request::SearchOn));
         }
     });
     ui.add_space(space::XS);

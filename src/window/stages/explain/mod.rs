@@ -5,7 +5,6 @@ mod cards;
 pub(crate) mod changes;
 mod channels;
 pub(crate) mod corrections;
-pub(crate) mod deed;
 mod detail;
 mod fingerprint;
 mod force;
@@ -17,14 +16,14 @@ mod map;
 pub(crate) mod panes;
 mod ranking;
 mod record;
+pub(crate) mod request;
 mod scene;
 mod schematic;
 pub(crate) mod switches;
 
 use crate::diagnosis::result::Verdict;
 use crate::display::findings::{RunSpread, is_detuned, is_stuck, spread_of_runs};
-use crate::display::words::at;
-use crate::display::{format, words};
+use crate::display::format;
 use crate::session::validation::only_records;
 use crate::window::document::Document;
 use crate::window::explained::ledger::Ledger;
@@ -32,7 +31,7 @@ use crate::window::explained::model::Key;
 use crate::window::explained::{Explained, Shown, Standing, Wanted};
 use crate::window::frame::top::StageStatus;
 use crate::window::view::{Stage, View};
-use deed::Deed;
+use request::Request;
 use scene::is_undamped;
 pub use schematic::{Errors, errors};
 use std::time::Duration;
@@ -96,31 +95,31 @@ pub fn keep_up(look: &mut look::Look, document: &Document, explained: &Explained
     }
 }
 
-/// What a deed changes of what is looked at and searched; what it changes in the project says `changes::change`.
-pub fn look_on(deed: Deed, view: &mut View, explained: &mut Explained) {
+/// What a request changes of what is looked at and searched; what it changes in the project says `changes::change`.
+pub fn look_on(request: Request, view: &mut View, explained: &mut Explained) {
     let look = &mut view.explain;
-    match deed {
-        Deed::Try(source) => look.trial = Some(source),
-        Deed::Stop => look.trial = None,
-        Deed::Add(_) | Deed::Return(_) => (look.trial, look.open) = (None, None),
-        Deed::Exclude(source) => {
+    match request {
+        Request::Try(source) => look.trial = Some(source),
+        Request::Stop => look.trial = None,
+        Request::Add(_) | Request::Return(_) => (look.trial, look.open) = (None, None),
+        Request::Exclude(source) => {
             look.trial = look.trial.take().filter(|t| !t.is_same(&source));
             look.open = look.open.take().filter(|t| !t.is_same(&source));
         }
-        Deed::Retry => explained.retry(),
-        Deed::Hurry => explained.hurry(),
-        Deed::Limit(limit) => view.limit_s = limit,
-        Deed::SearchOn => {
+        Request::Retry => explained.retry(),
+        Request::Hurry => explained.hurry(),
+        Request::Limit(limit) => view.limit_s = limit,
+        Request::SearchOn => {
             view.limit_s = None;
             explained.retry();
         }
-        Deed::Search => look.anyway = true,
-        Deed::Restore(_)
-        | Deed::TakeOver
-        | Deed::Correct
-        | Deed::CorrectOne(_)
-        | Deed::CorrectSensor { .. }
-        | Deed::Mend(_) => {}
+        Request::Search => look.anyway = true,
+        Request::Restore(_)
+        | Request::TakeOver
+        | Request::Correct
+        | Request::CorrectOne(_)
+        | Request::CorrectSensor { .. }
+        | Request::Mend(_) => {}
     }
 }
 
@@ -174,5 +173,5 @@ fn best_guess(document: &Document, explained: &Explained) -> String {
     let (suggestions, standing) = ranking::ranked(document, explained);
     let Some(source) = suggestions.first().map(|(s, _)| &s.added.source) else { return String::new() };
     let so_far = if standing == Standing::Final { "" } else { " so far" };
-    format!(" Best guess{so_far}: {} {}.", words::effect(source.effect), at(&document.project.structure, &source.place))
+    format!(" Best guess{so_far}: {}.", source.phrase(&document.project.structure))
 }

@@ -1,9 +1,9 @@
 //! The panes of the stage, each on its own: error map, the cell that was clicked, suggestions, ledger.
 
-use super::deed::Deed;
 use super::detail::Detail;
 use super::look::Look;
 use super::map::{self, Map};
+use super::request::Request;
 use super::scene::Scene;
 use super::{card, cards, ledger, record};
 use crate::diagnosis::Comparison;
@@ -42,7 +42,7 @@ impl<'a> Shown<'a> {
                 ui.title("The model cannot be compared", "");
                 ui.colored_label(ui.palette().error, tr(error));
                 if ui.button(t!("Compare again")).clicked() {
-                    asks.push(Ask::Explain(Deed::Retry));
+                    asks.push(Ask::Explain(Request::Retry));
                 }
                 return None;
             }
@@ -250,7 +250,7 @@ fn not_taken_over(ui: &mut Ui, said: &str, is_low: bool, asks: &mut Vec<Ask>) {
         let tip = "Makes the identified sources known at their values.";
         let tip = if is_low { format!("{}\n{}", tr(said), tr(tip)) } else { tr(tip) };
         if ui.button(t!("Add the identified sources")).on_hover_text(tip).clicked() {
-            asks.push(Ask::Explain(Deed::TakeOver));
+            asks.push(Ask::Explain(Request::TakeOver));
         }
     });
 }
@@ -269,7 +269,7 @@ fn preview(
         ui.pill("Preview", ui.palette().missing);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button(t!("End preview")).clicked() {
-                asks.push(Ask::Explain(Deed::Stop));
+                asks.push(Ask::Explain(Request::Stop));
             }
             let text = match (tried, scene.explained.trial(scene.document, source)) {
                 (Some(tried), _) => {

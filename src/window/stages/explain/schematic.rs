@@ -3,10 +3,9 @@
 use super::ranking;
 use crate::diagnosis::Comparison;
 use crate::display::format::in_words;
-use crate::display::words;
-use crate::display::words::at;
 use crate::effects::{Place, Source, State};
 use crate::plots::error_map::Scale;
+use crate::structure::Structure;
 use crate::window::document::Document;
 use crate::window::explained::Explained;
 use crate::window::schematic::Scene;
@@ -38,21 +37,22 @@ pub fn errors(scene: &Arc<Scene>, document: &Document, view: &View, explained: &
         comparison.map_or_else(String::new, |c| format!("Error at the sensors (shaded) {}", in_words(c.error)));
     if let Some(source) = suggested {
         let verb = if look.trial.is_some() { "on trial" } else { "suggested" };
-        let place = at(&document.project.structure, &source.place);
         let error = comparison.map(|c| format!("Error (shaded) {}", in_words(c.error)));
-        let told = format!("{verb}: {} {place}", words::effect(source.effect));
+        let told = format!("{verb}: {}", source.phrase(&document.project.structure));
         caption = error.into_iter().chain([told]).collect::<Vec<_>>().join(SEPARATOR);
     }
-    let scene = suggested.and_then(|s| with(scene, s)).map_or_else(|| Arc::clone(scene), Arc::new);
+    let scene =
+        suggested.and_then(|s| with(scene, s, &document.project.structure)).map_or_else(|| Arc::clone(scene), Arc::new);
     Errors { scene, shares, caption }
 }
 
 /// The scene with one more source, where it acts on DOFs.
-fn with(scene: &Scene, source: &Source) -> Option<Scene> {
+fn with(scene: &Scene, source: &Source, structure: &Structure) -> Option<Scene> {
     let Place::Dofs(dofs) = &source.place else { return None };
     let mut scene = scene.clone();
     let (index, effect, dofs) = (usize::MAX, source.effect, dofs.clone());
-    scene.sources.push(SceneSource { index, effect, dofs, state: State::Reference, identified: None, suggested: true });
+    let (name, state) = (source.phrase(structure), State::Reference);
+    scene.sources.push(SceneSource { index, effect, dofs, state, identified: None, name, suggested: true });
     Some(scene)
 }
 

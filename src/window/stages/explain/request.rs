@@ -4,7 +4,7 @@ use crate::effects::Source;
 
 /// What may be asked for in the stage.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Deed {
+pub enum Request {
     /// Preview an effect.
     Try(Source),
     /// End the preview.
