@@ -9,9 +9,9 @@ use dashpot::measurement::{Channel, Quantity, Record, Run};
 use dashpot::response::dynamic_stiffness::DynamicStiffness;
 use dashpot::structure::chain::ChainParameters;
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::document::Document;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2};
 use faer::c64;
 use std::f64::consts::TAU;
@@ -165,7 +165,7 @@ fn many_runs() -> Document {
 /// Every stage of a project of many runs while the pointer moves over it.
 fn bench_many_runs(c: &mut Criterion) {
     let ctx = Context::default();
-    dashpot::window::theme::install(&ctx);
+    dashpot::window::appearance::theme::install(&ctx);
     let mut app = App::default();
     app.loaded(many_runs(), false);
     // A search for what is missing ends by then, with the best so far.
@@ -188,7 +188,7 @@ fn bench_many_runs(c: &mut Criterion) {
 
 fn bench(c: &mut Criterion) {
     let ctx = Context::default();
-    dashpot::window::theme::install(&ctx);
+    dashpot::window::appearance::theme::install(&ctx);
     let mut app = App::default();
     app.document = Some(document());
     app.view.stage = Stage::Measure;

@@ -11,7 +11,7 @@ static ALLOCATOR: MiMalloc = MiMalloc;
 #[cfg(feature = "window")]
 mod display {
     use dashpot::cli::{Picture, Screen, Window};
-    use dashpot::window::picture::{self, picture};
+    use dashpot::window::headless::picture::{self, picture};
 
     /// The window of this program.
     pub(crate) struct Display;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The table of sentences that are put together of several literals.
 const COMPOSED: &str = "composed";
 
-/// Calls of the window that show the literals behind them; words in brackets of `t!`, `tf!` and of the widgets of `window/widgets.rs`,
+/// Calls of the window that show the literals behind them; words in brackets of `t!`, `tf!` and of the widgets of `window/appearance/widgets.rs`,
 /// which translate what they are given.
 const SHOWN: [&str; 13] = [
     "t!(",

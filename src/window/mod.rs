@@ -1,48 +1,25 @@
 //! The window: reads the document, draws it, and turns gestures into edits. Holds no physics.
 
-mod actions;
 pub mod app;
-pub mod ask;
-pub(crate) mod cache;
-mod chosen_files;
-pub mod commands;
+pub mod appearance;
+pub(crate) mod background;
 pub mod crash;
-pub(crate) mod derived;
 pub mod document;
-pub mod edits;
 pub mod explained;
 pub mod files;
 pub mod frame;
-mod import;
+pub mod headless;
 pub mod importing;
-pub(crate) mod jobs;
 pub mod language;
 pub mod learn;
-pub(crate) mod leaving;
-mod menu_bar;
-pub(crate) mod motion;
-pub mod offscreen;
-pub(crate) mod opened;
-pub(crate) mod photograph;
-pub mod picture;
 pub mod plots;
-pub(crate) mod prepared_records;
-pub(crate) mod records;
-pub(crate) mod repaint;
-pub mod report_choice;
 pub(crate) mod schematic;
 pub(crate) mod solid;
-mod stage_status;
 pub mod stages;
-pub(crate) mod templates;
-pub mod theme;
-mod update;
-pub mod view;
-pub(crate) mod widgets;
 
 pub use app::App;
-pub use photograph::Photograph;
-pub use picture::{Picture, picture};
+pub use headless::photograph::Photograph;
+pub use headless::picture::{Picture, picture};
 
 use crate::session::recent::Recent;
 use language::Language;
@@ -63,14 +40,14 @@ pub fn open(file: Option<PathBuf>, photograph: Option<PathBuf>) -> Result<(), St
     let persist_window = photograph.is_none();
     let options = eframe::NativeOptions { viewport, persist_window, ..eframe::NativeOptions::default() };
     let create = move |cc: &eframe::CreationContext<'_>| {
-        theme::install(&cc.egui_ctx);
+        appearance::theme::install(&cc.egui_ctx);
         let mut app = App::default();
         if let Some(desk) = cc.storage.and_then(|storage| eframe::get_value(storage, "desk")) {
             app.desk = desk;
         }
         app.view.limit_s = cc.storage.and_then(|storage| eframe::get_value(storage, "limit_s")).flatten();
         let less: Option<bool> = cc.storage.and_then(|storage| eframe::get_value(storage, "less_motion")).flatten();
-        app.set_less_motion(&cc.egui_ctx, less.unwrap_or_else(motion::is_unwanted));
+        app.set_less_motion(&cc.egui_ctx, less.unwrap_or_else(appearance::motion::is_unwanted));
         let units = cc.storage.and_then(|storage| eframe::get_value(storage, "units"));
         crate::display::units::choose(units.unwrap_or_default());
         let language: Option<Language> =

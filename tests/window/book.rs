@@ -1,7 +1,7 @@
 //! The pictures of the pages of `docs/stages`, made by the program on a sample; `UPDATE_SNAPSHOTS=1` makes them anew.
 
 use crate::support::{settle, start_sized};
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{SnapshotOptions, SnapshotResults};
 

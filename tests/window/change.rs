@@ -3,8 +3,8 @@
 use crate::support::{beam, beam_with, chain, open, settle};
 use dashpot::session::states::Against;
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui_kittest::Harness;

@@ -6,7 +6,7 @@ use dashpot::session::Command as Change;
 use dashpot::session::recent::Recent;
 use dashpot::window::crash;
 use dashpot::window::document::Document;
-use dashpot::window::edits::Edit;
+use dashpot::window::document::edits::Edit;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};

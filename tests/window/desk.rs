@@ -2,10 +2,10 @@
 
 use crate::support::{beam, open, settle};
 use dashpot::window::App;
-use dashpot::window::commands::Command;
+use dashpot::window::app::commands::Command;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::desk::Desk;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;

@@ -4,8 +4,8 @@
 use crate::support::{beam, open, settle, start};
 use dashpot::session::Command as Change;
 use dashpot::window::App;
-use dashpot::window::commands::Command;
-use dashpot::window::edits::Edit;
+use dashpot::window::app::commands::Command;
+use dashpot::window::document::edits::Edit;
 use egui::Theme;
 use egui_kittest::Harness;
 use std::path::Path;
@@ -129,6 +129,6 @@ fn two_windows_on_one_project_lose_nothing() {
     );
     let ctx = other.ctx.clone();
     let own = sample.path.with_file_name("second.toml");
-    other.state_mut().answer(&ctx, dashpot::window::ask::Ask::SaveAs(own.clone()));
+    other.state_mut().answer(&ctx, dashpot::window::app::ask::Ask::SaveAs(own.clone()));
     assert!(std::fs::read_to_string(&own).unwrap().contains("Of the second"));
 }

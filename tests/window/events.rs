@@ -5,7 +5,7 @@ use crate::support::{Sample, beam, drop_files, open_unseen, settle};
 use dashpot::effects::Source;
 use dashpot::session::Session;
 use dashpot::window::App;
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Theme, TouchPhase, pos2, vec2};
 use egui_kittest::Harness;
 use std::path::{Path, PathBuf};

@@ -2,9 +2,9 @@
 
 use crate::support::{beam, open, settle};
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
 use dashpot::window::plots::export::{Kind, shown, want};
-use dashpot::window::view::Stage;
 use egui::{OutputCommand, PointerButton, Theme};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

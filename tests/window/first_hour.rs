@@ -3,10 +3,10 @@
 
 use crate::support::{settle, start};
 use dashpot::window::App;
-use dashpot::window::ask::Ask;
-use dashpot::window::commands::Command;
+use dashpot::window::app::ask::Ask;
+use dashpot::window::app::commands::Command;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};

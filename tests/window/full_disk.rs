@@ -3,9 +3,9 @@
 
 use crate::support::{beam, start};
 use dashpot::session::Command as Change;
-use dashpot::window::ask::Ask;
-use dashpot::window::commands::Command;
-use dashpot::window::edits::Edit;
+use dashpot::window::app::ask::Ask;
+use dashpot::window::app::commands::Command;
+use dashpot::window::document::edits::Edit;
 use std::path::{Path, PathBuf};
 
 const PROJECT: &str = "DASHPOT_FULL_DISK_PROJECT";

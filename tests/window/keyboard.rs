@@ -4,7 +4,7 @@ use crate::friction::friction;
 use crate::names::CONTROLS;
 use crate::support::{Sample, beam, open, settle, start};
 use dashpot::window::App;
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::accesskit::Role;
 use egui::{Key, Rect, Theme};
 use egui_kittest::Harness;

@@ -4,7 +4,7 @@ use crate::support::{Sample, open, settle};
 use dashpot::cli::answer;
 use dashpot::diagnosis::channels::ChannelFault;
 use dashpot::window::App;
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::{Key, Modifiers, Theme, accesskit::Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

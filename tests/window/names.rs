@@ -3,8 +3,8 @@
 use crate::friction::friction;
 use crate::support::{beam, open, settle, start};
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui_kittest::Harness;

@@ -4,7 +4,7 @@ use crate::support::{beam, chain, document, drag, open, settle, start};
 use dashpot::control::Control;
 use dashpot::display::format;
 use dashpot::effects::{Effect, Place, State};
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::{Key, Modifiers, Theme};
 use egui_kittest::kittest::Queryable;
 

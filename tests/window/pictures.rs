@@ -2,8 +2,8 @@
 
 use crate::support::{Sample, beam, chain, open, settle, start};
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui_kittest::{Harness, SnapshotResults};
 

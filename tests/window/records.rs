@@ -4,8 +4,8 @@
 use crate::support::{Sample, open, open_sized, settle};
 use dashpot::plots::record_residual::RecordResidual;
 use dashpot::window::App;
+use dashpot::window::app::view::Stage;
 use dashpot::window::stages::explain::look::RecordTab;
-use dashpot::window::view::Stage;
 use egui::{Theme, accesskit::Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

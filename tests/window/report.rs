@@ -1,8 +1,8 @@
 //! The report from the menu: what it is to be is asked, kept and written.
 
 use crate::support::{beam, open, settle};
-use dashpot::window::ask::Ask;
-use dashpot::window::commands::Command;
+use dashpot::window::app::ask::Ask;
+use dashpot::window::app::commands::Command;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -4,8 +4,8 @@
 use crate::friction::friction;
 use crate::legible::faults;
 use crate::support::{Sample, beam, chain, open_sized, settle};
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui_kittest::SnapshotResults;

@@ -3,7 +3,7 @@
 use crate::support::{beam, open, settle};
 use crate::wing::wing;
 use dashpot::window::App;
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::{Event, Key, Theme};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotResults};

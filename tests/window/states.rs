@@ -3,8 +3,8 @@
 use crate::support::{beam, drop_files, open, settle, start};
 use dashpot::window::App;
 use dashpot::window::app::Ask;
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

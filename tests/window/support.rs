@@ -147,7 +147,7 @@ pub(crate) fn open_unseen(sample: &Sample, theme: egui::Theme) -> Harness<'stati
 }
 
 fn window(file: Option<PathBuf>, theme: egui::Theme, size: [f32; 2]) -> Harness<'static, App> {
-    let setup = dashpot::window::offscreen::setup(wgpu::Backends::PRIMARY);
+    let setup = dashpot::window::headless::offscreen::setup(wgpu::Backends::PRIMARY);
     rendered(file, theme, size, Patient(WgpuTestRenderer::from_setup(setup)))
 }
 
@@ -160,7 +160,7 @@ fn rendered(
     let mut harness =
         Harness::builder().with_size(egui::Vec2::from(size)).with_theme(theme).renderer(renderer).build_eframe(
             move |cc| {
-                dashpot::window::theme::install(&cc.egui_ctx);
+                dashpot::window::appearance::theme::install(&cc.egui_ctx);
                 cc.egui_ctx.set_theme(theme);
                 let mut app = App::default();
                 if let Some(file) = file {

@@ -1,8 +1,8 @@
 //! Every term of the window is explained: names of values, heads of columns, titles of panes and stages.
 
 use dashpot::display::glossary::{TERMS, meaning, page};
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use std::path::Path;
 
 /// Calls that put the name of something on the screen.

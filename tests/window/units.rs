@@ -2,8 +2,8 @@
 
 use crate::support::{beam, open, settle};
 use dashpot::display::units::{self, Acceleration, Damping, Force, Frequency, Length, Units};
+use dashpot::window::app::view::Stage;
 use dashpot::window::frame::panes::Pane;
-use dashpot::window::view::Stage;
 use egui::Theme;
 use egui::accesskit::Role;
 use egui::epaint::Shape;

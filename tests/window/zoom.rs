@@ -2,7 +2,7 @@
 
 use crate::support::{beam, open, settle};
 use dashpot::window::App;
-use dashpot::window::view::Stage;
+use dashpot::window::app::view::Stage;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, OutputCommand, PointerButton, Pos2, Theme, pos2};
 use egui_kittest::Harness;

@@ -231,12 +231,12 @@ fn distinct(laws: &[Source]) -> Vec<Source> {
 fn is_determined(source: &Source, deviations: &[f64], range: &Range) -> bool {
     let has_limits = source.effect.limits().next().is_some();
     let near_limit = |k: usize| {
-        let at = |value: f64| {
+        let is_simpler = |value: f64| {
             let mut moved = source.clone();
             moved.parameters[k] = value;
             source.effect.parameters()[k].allows(value) && moved.simpler(range).is_some()
         };
-        at(source.parameters[k] + deviations[k]) || at(source.parameters[k] - deviations[k])
+        is_simpler(source.parameters[k] + deviations[k]) || is_simpler(source.parameters[k] - deviations[k])
     };
     let is_number = |k: usize| source.effect.parameters()[k].unit.is_empty();
     let fixed = |k: usize| {

@@ -2,7 +2,7 @@
 
 use super::model::Search;
 use crate::diagnosis::result::Suggestion;
-use crate::window::repaint::RepaintHandle;
+use crate::window::app::repaint::RepaintHandle;
 use egui::Context;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -6,8 +6,6 @@ mod jobs;
 pub(crate) mod ledger;
 pub(crate) mod model;
 
-use super::cache::{Background, Cache, Cached};
-use super::document::Document;
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::diagnosis::candidates::restoring_force::RestoringForce;
 use crate::diagnosis::records::compare::OneRecord;
@@ -19,6 +17,8 @@ use crate::exchange::Project;
 use crate::plots::record_residual::RecordResidual;
 use crate::plots::response_curve::Curve;
 use crate::session::validation::only_records;
+use crate::window::background::cache::{Background, Cache, Cached};
+use crate::window::document::Document;
 use egui::Context;
 use first_suggestions::FirstSuggestions;
 use jobs::{compare_job, curve_job, decay_job, force_job, print_job, record_job, scatter_job, search_job};

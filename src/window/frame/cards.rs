@@ -1,10 +1,10 @@
 //! The samples as cards: what each is for, with a picture.
 
 use crate::effects::Effect;
+use crate::window::appearance::theme::{self, Palette, size};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
 use crate::window::schematic::symbols;
-use crate::window::theme::{self, Palette, size};
-use crate::window::widgets::UiExt;
 use egui::{Align2, Painter, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! A file is chosen inside the window, where the desktop has no dialogs of its own.
 
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::appearance::theme::{size, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::files::{self, Pick};
 use crate::window::language::{t, tr};
-use crate::window::theme::{size, space};
-use crate::window::widgets::UiExt;
 use egui::{Button, Context, Frame, Id, Label, Margin, Modal, RichText, ScrollArea, TextEdit, Ui};
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! Which panes are open and where they lie, stage by stage.
 
 use super::panes::{Pane, arrangement};
-use crate::window::view::Stage;
+use crate::window::app::view::Stage;
 use egui::Rect;
 use egui_tiles::{Tile, Tree};
 use serde::{Deserialize, Serialize};

@@ -4,13 +4,13 @@ use super::desk::Desk;
 use super::panes::Pane;
 use super::tabs::Fit;
 use crate::display::glossary;
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::app::opened::Opened;
+use crate::window::appearance::theme::{self, Palette, size, space};
+use crate::window::appearance::widgets::explained;
 use crate::window::language::{t, tf, tr};
-use crate::window::opened::Opened;
 use crate::window::stages;
 use crate::window::stages::explain::switches::in_bar;
-use crate::window::theme::{self, Palette, size, space};
-use crate::window::widgets::explained;
 use egui::{
     Color32, CornerRadius, Frame, Id, Margin, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, WidgetText, vec2,
 };

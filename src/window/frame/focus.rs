@@ -1,6 +1,6 @@
 //! The ring about what has the focus of the keyboard, whatever it is.
 
-use crate::window::theme::{Palette, bold};
+use crate::window::appearance::theme::{Palette, bold};
 use egui::{Context, Id, Key, LayerId, Order, Rect, StrokeKind};
 
 /// Keys that carry the focus on.

@@ -2,12 +2,12 @@
 
 use super::desk::Desk;
 use super::panes::Pane;
-use crate::window::ask::Ask;
-use crate::window::commands::TABLE;
+use crate::window::app::ask::Ask;
+use crate::window::app::commands::TABLE;
+use crate::window::app::view::{Stage, View};
+use crate::window::appearance::theme::{Palette, size, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tr};
-use crate::window::theme::{Palette, size, space};
-use crate::window::view::{Stage, View};
-use crate::window::widgets::UiExt;
 use egui::{Context, Grid, Id, LayerId, Order, Rect, RichText, ScrollArea, StrokeKind, Window, pos2, vec2};
 
 /// Shows what is open of it.

@@ -1,6 +1,6 @@
 //! Symbols of the stages, drawn by lines of our own.
 
-use crate::window::view::Stage;
+use crate::window::app::view::Stage;
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2};
 
 /// Draws the symbol of a stage into a square.

@@ -7,13 +7,13 @@ use crate::exchange::Project;
 use crate::exchange::project::ProjectFile;
 use crate::identify::Settings;
 use crate::session::{Command, Setting};
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::app::view::{Stage, View};
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::document::Document;
-use crate::window::edits::Edit;
+use crate::window::document::edits::Edit;
 use crate::window::language::{t, tr};
-use crate::window::theme::space;
-use crate::window::view::{Stage, View};
-use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
 /// Shows the inspector.

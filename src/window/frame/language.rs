@@ -1,7 +1,7 @@
 //! The menu of languages: chosen once, for all words and the decimal sign on the screen; files and the command line stay English.
 
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{self, Language};
-use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the choices, each by its name in itself.

@@ -1,10 +1,10 @@
 //! What is asked before unsaved changes are left behind.
 
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::app::leaving::Changes;
+use crate::window::appearance::theme::{size, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tf};
-use crate::window::leaving::Changes;
-use crate::window::theme::{size, space};
-use crate::window::widgets::UiExt;
 use egui::{Context, Frame, Id, Margin, Modal, RichText};
 
 /// Asks what becomes of the changes of the project with this title.

@@ -1,9 +1,9 @@
 //! Notifications that stay until they are closed, and the list of all messages.
 
-use crate::window::ask::{Ask, Message};
+use crate::window::app::ask::{Ask, Message};
+use crate::window::appearance::theme::{self, Palette, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tr};
-use crate::window::theme::{self, Palette, space};
-use crate::window::widgets::UiExt;
 use egui::{Align, Align2, Area, Context, Frame, Id, Label, Layout, Margin, Order, RichText, ScrollArea, Window, vec2};
 
 /// Shows a failure that was not closed yet.

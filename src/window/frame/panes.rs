@@ -1,6 +1,6 @@
 //! What can be shown side by side, and how each stage arranges it at first.
 
-use crate::window::view::Stage;
+use crate::window::app::view::Stage;
 use egui_tiles::{Container, Linear, LinearDir, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
@@ -213,7 +213,7 @@ fn tabs(tiles: &mut Tiles<Pane>, panes: &[Pane]) -> TileId {
 #[cfg(test)]
 mod tests {
     use super::{Pane, arrangement};
-    use crate::window::view::Stage;
+    use crate::window::app::view::Stage;
 
     #[test]
     fn every_stage_shows_the_schematic_and_the_inspector_and_every_pane_is_somewhere() {

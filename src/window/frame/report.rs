@@ -1,11 +1,11 @@
 //! What a report is to be: title page, sections, time of the search, tables.
 
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::appearance::theme::{size, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::files::Pick;
+use crate::window::frame::report_choice::ReportChoice;
 use crate::window::language::{t, tr};
-use crate::window::report_choice::ReportChoice;
-use crate::window::theme::{size, space};
-use crate::window::widgets::UiExt;
 use egui::{Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, ScrollArea, TextEdit, Ui};
 
 /// Width of the dialog, points.

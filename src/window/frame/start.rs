@@ -2,11 +2,11 @@
 
 use super::cards::{self, Sample, card};
 use crate::window::app::Ask;
-use crate::window::commands::Command;
+use crate::window::app::commands::Command;
+use crate::window::appearance::theme::{Palette, size, space};
+use crate::window::appearance::widgets::UiExt;
+use crate::window::document::templates;
 use crate::window::language::{t, tr};
-use crate::window::templates;
-use crate::window::theme::{Palette, size, space};
-use crate::window::widgets::UiExt;
 use egui::{CentralPanel, Frame, Margin, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 

@@ -2,13 +2,13 @@
 
 use crate::display::{format, words};
 use crate::identify::Outcome;
+use crate::window::app::commands::Command;
+use crate::window::app::view::Stage;
 use crate::window::app::{App, Ask};
-use crate::window::commands::Command;
+use crate::window::appearance::theme::{Palette, size};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::document::Document;
 use crate::window::language::{t, tr};
-use crate::window::theme::{Palette, size};
-use crate::window::view::Stage;
-use crate::window::widgets::UiExt;
 use egui::{Align, Button, Frame, Layout, Margin, Panel, ProgressBar, RichText, Ui};
 
 /// Shows the bar.

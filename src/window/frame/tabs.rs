@@ -1,8 +1,8 @@
 //! Which tabs of a bar have room: all of them, closer together where they must be, else the first ones and a list of the others.
 
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::width;
 use crate::window::language::{t, tf, tr};
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::width;
 use egui::Ui;
 use egui_tiles::TileId;
 

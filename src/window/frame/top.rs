@@ -2,14 +2,16 @@
 
 use crate::exchange::export::Format;
 use crate::session::recent::Recent;
+use crate::window::app::commands::Command;
+use crate::window::app::view::Stage;
 use crate::window::app::{App, Ask};
-use crate::window::commands::Command;
+use crate::window::appearance::theme::{self, Palette, size, space};
+use crate::window::appearance::widgets::{UiExt, folded, width};
+use crate::window::document::templates;
+use crate::window::files;
+use crate::window::frame::menu_bar;
 use crate::window::language::{t, tf, tr};
 use crate::window::plots::{export, table};
-use crate::window::theme::{self, Palette, size, space};
-use crate::window::view::Stage;
-use crate::window::widgets::{UiExt, folded, width};
-use crate::window::{files, menu_bar, templates};
 use egui::{
     Align, Align2, Button, Color32, Frame, Galley, Layout, Margin, Panel, Rect, Role, Sense, Ui, WidgetInfo, vec2,
 };

@@ -1,8 +1,8 @@
 //! The menu of units: chosen once, shown everywhere on the screen; files stay SI.
 
 use crate::display::units::{self, Acceleration, Damping, Force, Frequency, Length, Units};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tr};
-use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the choices, a group a quantity.

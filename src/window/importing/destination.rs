@@ -1,9 +1,9 @@
 //! Where the measurements go, and the model that is laid under them.
 
 use super::draft::Draft;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tr};
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{TextEdit, Ui};
 use std::path::{Path, PathBuf};
 

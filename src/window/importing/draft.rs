@@ -6,7 +6,7 @@ use crate::exchange::importing::files::{listed, may_be_measurement};
 use crate::exchange::importing::{Functions, Holds, Request, look};
 use crate::exchange::mapping::{ChannelTable, Proposal};
 use crate::measurement::Quantity;
-use crate::window::cache::Cache;
+use crate::window::background::cache::Cache;
 use dashpot_datafiles::{DataFile, Kind, open};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

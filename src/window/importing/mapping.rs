@@ -2,9 +2,9 @@
 
 use super::draft::ChannelRow;
 use crate::measurement::Quantity;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{numbers, t, tf, tr};
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Align, ComboBox, DragValue, Label, Layout, Response, Role, TextEdit, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 

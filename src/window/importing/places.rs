@@ -3,9 +3,9 @@
 use super::draft::Responses;
 use super::mapping::sense;
 use crate::exchange::frf::Form;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tf, tr};
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Align, ComboBox, DragValue, Label, Layout, Role, TextEdit, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder};
 

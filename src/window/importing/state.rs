@@ -5,9 +5,9 @@ use crate::control::Control;
 use crate::exchange::atomic::write_atomically;
 use crate::exchange::importing::{Request, import};
 use crate::session::jobs::Job;
-use crate::window::cache::Background;
+use crate::window::app::repaint::request_repaint;
+use crate::window::background::cache::Background;
 use crate::window::document::Document;
-use crate::window::repaint::request_repaint;
 use egui::Context;
 use std::path::{Path, PathBuf};
 

@@ -2,9 +2,9 @@
 
 use super::draft::Draft;
 use crate::display::format::{pretty_unit, significant};
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, elided};
 use crate::window::language::{tf, tr};
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, elided};
 use dashpot_datafiles::{Channel, DataFile, Set, is_coherence};
 use egui::{Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 use std::sync::Arc;

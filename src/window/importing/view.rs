@@ -4,11 +4,11 @@ use super::draft::{Decided, Draft};
 use super::preview::Preview;
 use super::state::Importing;
 use super::{destination, mapping, places, tree};
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::appearance::theme::{Palette, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{numbers, t, tf, tr};
 use crate::window::plots::show::Stack;
-use crate::window::theme::{Palette, space};
-use crate::window::widgets::UiExt;
 use egui::{CentralPanel, DragValue, Frame, Margin, Panel, ScrollArea, Ui, vec2};
 use std::sync::Arc;
 

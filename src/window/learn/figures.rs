@@ -3,7 +3,7 @@
 use crate::display::format;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::response::portrait::{AtLevel, Points, Portrait, ResponsePoint};
-use crate::window::theme::Palette;
+use crate::window::appearance::theme::Palette;
 use egui::Color32;
 
 /// Line of the k-th force level: the larger the force, the heavier.

@@ -6,15 +6,15 @@ mod page;
 
 pub use page::Learn;
 
-use super::ask::Ask;
-use super::commands::Command;
 use super::plots::show::Stack;
-use super::theme::{Palette, space};
-use super::widgets::UiExt;
 use crate::display::{format, words};
 use crate::effects::Effect;
 use crate::plots::figure::Figure;
 use crate::response::portrait::Portrait;
+use crate::window::app::ask::Ask;
+use crate::window::app::commands::Command;
+use crate::window::appearance::theme::{Palette, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{numbers, t, tr};
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Slider, Ui, vec2};
 use lesson::{Lesson, System};

@@ -3,7 +3,7 @@
 use super::lesson::Lesson;
 use crate::control::Control;
 use crate::response::portrait::{Portrait, portrait};
-use crate::window::cache::{Background, Cache, Cached};
+use crate::window::background::cache::{Background, Cache, Cached};
 use egui::Context;
 
 /// The page: what is chosen, and what was computed of it.

@@ -3,9 +3,9 @@
 use super::export;
 use crate::display::format;
 use crate::plots::bars::{Bar, draw, table};
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, elided, width};
 use crate::window::language::{tf, tr};
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, elided, width};
 use egui::{Align2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Shows bars under each other, each filled by its share of the whole; names have `name_width` points or more;

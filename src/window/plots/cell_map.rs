@@ -4,8 +4,8 @@
 use super::cursors::{self, Cursors, Reading};
 use super::zoom::{Sight, Zoom};
 use crate::plots::figure::{Axis, Figure};
-use crate::window::theme::{self, size};
-use crate::window::widgets::UiExt;
+use crate::window::appearance::theme::{self, size};
+use crate::window::appearance::widgets::UiExt;
 use egui::{Align2, Context, Id, PointerButton, Pos2, Rect, Response, StrokeKind, Ui, Vec2, pos2, vec2};
 use std::ops::Range;
 

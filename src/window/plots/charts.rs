@@ -8,7 +8,7 @@ use crate::measurement::ChannelFit;
 use crate::plots::bode::Diagram;
 use crate::plots::pyramid::Pyramid;
 use crate::plots::{angle as angles, energy as energies, spectrum as spectra};
-use crate::window::widgets::UiExt;
+use crate::window::appearance::widgets::UiExt;
 use egui::Ui;
 use std::sync::Arc;
 

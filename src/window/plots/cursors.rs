@@ -4,8 +4,8 @@
 use crate::display::format::{pretty_unit, significant, with_unit};
 use crate::display::units::{self, Frequency};
 use crate::plots::figure::{Axis, Figure, Look, Scale, Ticks};
+use crate::window::appearance::theme::{self, Palette};
 use crate::window::language::tr;
-use crate::window::theme::{self, Palette};
 use egui::{Align2, Color32, Context, Galley, Id, Pos2, Rect, RichText, Vec2, pos2, vec2};
 use egui_plot::{LineStyle, MarkerShape, PlotPoint, PlotUi, Points, VLine};
 use std::sync::Arc;

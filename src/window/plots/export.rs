@@ -9,12 +9,12 @@ use crate::plots::figure::csv;
 use crate::plots::sheet::Sheet;
 use crate::plots::svg;
 use crate::session::jobs::Job;
+use crate::window::app::repaint::request_repaint;
+use crate::window::appearance::theme::Palette;
+use crate::window::appearance::widgets::UiExt;
+use crate::window::headless::offscreen::Offscreen;
 use crate::window::language::{t, tr};
-use crate::window::offscreen::Offscreen;
-use crate::window::repaint::request_repaint;
 use crate::window::solid::paint::graphics;
-use crate::window::theme::Palette;
-use crate::window::widgets::UiExt;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Rect, Response, Ui, Vec2, vec2};
 use egui_wgpu::RenderState;
 use std::collections::VecDeque;
@@ -356,7 +356,7 @@ pub fn png(drawing: &Drawing, state: Option<RenderState>) -> Result<Vec<u8>, Str
     let pixels = [drawing.size.x * FINE, drawing.size.y * FINE].map(|v| v.round() as u32);
     let offscreen = Offscreen::beside(state, pixels, FINE)?;
     let ctx = Context::default();
-    crate::window::theme::install(&ctx);
+    crate::window::appearance::theme::install(&ctx);
     let rgba = offscreen.settle(&ctx, &mut |ui| {
         let painter = ui.painter();
         painter.rect_filled(ui.max_rect().expand(100.0), 0.0, drawing.ground);

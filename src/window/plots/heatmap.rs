@@ -6,8 +6,8 @@ use crate::display::format;
 use crate::plots::drawing::Drawing;
 use crate::plots::figure::{Axis, Figure, Ticks};
 use crate::plots::heatmap::HeatMap;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{tf, tr};
-use crate::window::widgets::UiExt;
 use egui::{Pos2, Rect, Sense, Ui, WidgetInfo};
 
 impl HeatMap<'_> {

@@ -6,8 +6,8 @@ use crate::display::words;
 use crate::plots::figure::Figure;
 use crate::plots::hysteresis::Loop;
 use crate::plots::sheet::{Panel, Sheet};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
-use crate::window::widgets::UiExt;
 use egui::{Ui, vec2};
 
 /// Least width of a loop, points.

@@ -2,9 +2,9 @@
 //! a leg out of the motions of all DOFs. Multiplied by a coefficient it is what the source adds to the damping matrix.
 
 use crate::effects::place::Leg;
+use crate::window::appearance::theme::{self, size};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{tf, tr};
-use crate::window::theme::{self, size};
-use crate::window::widgets::UiExt;
 use egui::{Align2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 /// Entry of a DOF with itself or with another: row, column, value.

@@ -17,9 +17,9 @@ pub(crate) mod spectrogram;
 pub(crate) mod table;
 pub(crate) mod zoom;
 
-use super::theme::{Palette, size};
-use super::widgets::UiExt;
 use crate::plots::ticks::tick;
+use crate::window::appearance::theme::{Palette, size};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
 use egui::{Color32, FontId, Ui};
 use egui_plot::{AxisHints, Line, Plot, PlotPoints};

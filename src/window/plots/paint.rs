@@ -1,8 +1,8 @@
 //! Drawings on the screen: the same marks as in a file, by a painter of egui.
 
 use crate::plots::drawing::{Drawing, Mark, Stroke};
+use crate::window::appearance::theme;
 use crate::window::language::tr;
-use crate::window::theme;
 use egui::{Painter, Pos2, Shape, Vec2};
 
 impl From<Stroke> for egui::Stroke {

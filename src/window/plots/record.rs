@@ -4,7 +4,7 @@ use super::show::Stack;
 use crate::measurement::ChannelFit;
 use crate::plots::record::{RecordPlot, lane_figures};
 use crate::plots::trace::Trace;
-use crate::window::widgets::UiExt;
+use crate::window::appearance::widgets::UiExt;
 use egui::Ui;
 use std::sync::Arc;
 

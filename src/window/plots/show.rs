@@ -9,9 +9,9 @@ use crate::display::format::significant;
 use crate::plots::figure::{Axis, Data, Figure, Label, Look, Scale, Series, Ticks};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::plots::{grid, ticks};
+use crate::window::appearance::theme;
+use crate::window::appearance::widgets::{UiExt, width};
 use crate::window::language::{tf, tr};
-use crate::window::theme;
-use crate::window::widgets::{UiExt, width};
 use egui::{Align2, Id, Rangef, RichText, Role, ScrollArea, Sense, Shape, Ui, Vec2, WidgetInfo, vec2};
 use egui_plot::{
     AxisHints, Bar, BarChart, CoordinatesFormatter, Corner, HLine, HPlacement, HoverPosition, Line, LineStyle,

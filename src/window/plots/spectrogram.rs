@@ -6,8 +6,8 @@ use crate::display::format;
 use crate::plots::drawing::Drawing;
 use crate::plots::figure::{Axis, Figure};
 use crate::plots::spectrogram::Spectrogram;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tf;
-use crate::window::widgets::UiExt;
 use egui::{Pos2, Rect, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 /// Size on paper, points.

@@ -4,9 +4,9 @@
 //! the limits too, but there is no way back to data that are gone.
 
 use crate::plots::figure::{Axis, Figure, Scale, Ticks};
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{numbers, t, tf, tr};
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Context, DragValue, Grid, Id, Key, Modifiers, Response, Ui, Window};
 use egui_plot::{PlotBounds, PlotUi};
 

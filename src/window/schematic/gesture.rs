@@ -2,7 +2,7 @@
 
 use super::hit::{self, Target};
 use super::{Layout, Scene};
-use crate::window::edits::Edit;
+use crate::window::document::edits::Edit;
 use egui::{Pos2, Rect};
 
 /// What the user asked for on the schematic; DOFs are matrix rows, sources are indices in the project.

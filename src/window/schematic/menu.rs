@@ -5,9 +5,9 @@ use super::gesture::Intent;
 use super::hit::Target;
 use crate::effects::{Effect, State};
 use crate::session::Command;
-use crate::window::edits::Edit;
+use crate::window::appearance::widgets::UiExt;
+use crate::window::document::edits::Edit;
 use crate::window::language::{t, tf, tr};
-use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the entries for what was pointed at.

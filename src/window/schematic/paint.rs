@@ -5,7 +5,7 @@ use super::layout::{Handle, Layout, Part};
 use super::model::{Scene, Support};
 use super::symbols;
 use crate::effects::{Effect, State};
-use crate::window::theme::{self, Palette};
+use crate::window::appearance::theme::{self, Palette};
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
 
 /// What is to stand out.

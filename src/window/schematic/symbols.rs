@@ -81,7 +81,7 @@ impl Pen<'_> {
     }
 
     fn letter(&self, text: &str) {
-        let font = crate::window::theme::font(crate::window::theme::size::SMALL - 1.5);
+        let font = crate::window::appearance::theme::font(crate::window::appearance::theme::size::SMALL - 1.5);
         let at = self.middle - Vec2::new(0.0, 12.0);
         self.painter.text(at, egui::Align2::CENTER_CENTER, text, font, self.stroke.color);
     }

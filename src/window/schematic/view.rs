@@ -6,10 +6,10 @@ use super::paint::{self, Marks};
 use super::{Camera, Layout, Scene};
 use crate::display::format;
 use crate::effects::Effect;
+use crate::window::appearance::theme::{self, Palette};
+use crate::window::appearance::widgets::{elided, width};
 use crate::window::language::{t, tr};
 use crate::window::solid::{self, wire::Wire};
-use crate::window::theme::{self, Palette};
-use crate::window::widgets::{elided, width};
 use egui::{CursorIcon, Key, Pos2, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 /// Points about a node of a wire model within which it is pointed at.

@@ -13,10 +13,10 @@ use crate::display::format;
 use crate::plots::drawing::Drawing;
 use crate::plots::grid::round_step;
 use crate::plots::heatmap::HeatMap;
+use crate::window::appearance::theme::{self, Palette};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{tf, tr};
 use crate::window::plots::export;
-use crate::window::theme::{self, Palette};
-use crate::window::widgets::UiExt;
 use egui::{Id, Rect, Role, Sense, Ui, Vec2, WidgetInfo};
 use nalgebra::Vector3;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -294,7 +294,7 @@ mod tests {
 
     #[test]
     fn only_bars_that_are_not_zero_are_drawn() {
-        let mesh = bars().mesh(crate::window::theme::Palette::of(&egui::Visuals::light()));
+        let mesh = bars().mesh(crate::window::appearance::theme::Palette::of(&egui::Visuals::light()));
         assert_eq!(mesh.indices.len(), 5 * 36);
     }
 }

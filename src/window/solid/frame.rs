@@ -3,7 +3,7 @@
 use super::camera::Projection;
 use crate::plots::drawing::Drawing;
 use crate::plots::ticks::tick;
-use crate::window::theme::{self, Palette, size};
+use crate::window::appearance::theme::{self, Palette, size};
 use egui::{Align2, Pos2, Vec2};
 use nalgebra::Vector3;
 

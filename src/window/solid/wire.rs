@@ -3,9 +3,9 @@
 use super::mesh::Mesh;
 use super::paint::Solid;
 use super::pick::{Ray, nearest};
+use crate::window::appearance::theme::Palette;
 use crate::window::schematic::Scene;
 use crate::window::schematic::layout::Space;
-use crate::window::theme::Palette;
 use egui::{Color32, Id, Painter, Rect};
 use nalgebra::Vector3;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -6,12 +6,12 @@ use crate::display::units::{self, Damping};
 use crate::display::{change as said, format};
 use crate::identify::change::{ModeChange, Pair, SourceChange};
 use crate::session::states::{Against, Compared, sessions};
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::app::opened::Opened;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::files::Pick;
 use crate::window::language::{t, tf, tr};
-use crate::window::opened::Opened;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Align, Layout, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 

@@ -3,10 +3,10 @@
 use crate::exchange::Project;
 use crate::identify::Outcome;
 use crate::session::validation::has_records;
-use crate::window::derived::Derived;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
+use crate::window::background::derived::Derived;
 use crate::window::document::Document;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Response, Ui};
 use std::sync::Arc;
 

@@ -11,16 +11,17 @@ pub(crate) mod pattern;
 pub(crate) mod result;
 pub mod run_table;
 pub(crate) mod select;
+pub(crate) mod status;
 pub(crate) mod structure;
 pub(crate) mod unsteady;
 
-use super::ask::Ask;
 use super::frame;
 use super::frame::panes::Pane;
-use super::opened::Opened;
 use super::plots::table as tabled;
 use crate::plots::{tables, tables_of_model};
 use crate::session::validation::problem;
+use crate::window::app::ask::Ask;
+use crate::window::app::opened::Opened;
 use egui::Ui;
 
 /// Shows a pane.

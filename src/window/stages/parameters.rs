@@ -5,12 +5,12 @@ use crate::exchange::project::file::{ProjectFile, Shape};
 use crate::session::Command;
 use crate::structure::beam::{BeamParameters, Supports};
 use crate::structure::chain::ChainParameters;
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::document::Document;
-use crate::window::edits::Edit;
+use crate::window::document::edits::Edit;
 use crate::window::language::tf;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{ScrollArea, Ui};
 
 /// Shows the pane; a lumped mass may be added at the DOF that is selected.

@@ -2,15 +2,15 @@
 
 use crate::effects::{Effect, Family, Kind, Source, State};
 use crate::exchange::Project;
-use crate::window::ask::Ask;
-use crate::window::commands::Command;
-use crate::window::edits::Edit;
+use crate::window::app::ask::Ask;
+use crate::window::app::commands::Command;
+use crate::window::app::view::View;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::UiExt;
+use crate::window::document::edits::Edit;
 use crate::window::language::{t, tr};
 use crate::window::plots::localisation;
 use crate::window::schematic::{paint::source_stroke, symbols};
-use crate::window::theme::{self, size, space};
-use crate::window::view::View;
-use crate::window::widgets::UiExt;
 use egui::text::{Galley, LayoutJob};
 use egui::{
     Align, Frame, Margin, Panel, Response, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, Vec2, WidgetInfo, pos2,

@@ -3,9 +3,9 @@
 use crate::display::{glossary, words};
 use crate::exchange::Project;
 use crate::measurement::Run;
+use crate::window::appearance::theme::{self, space};
+use crate::window::appearance::widgets::{UiExt, explained, shortened};
 use crate::window::language::{t, tf, tr};
-use crate::window::theme::{self, space};
-use crate::window::widgets::{UiExt, explained, shortened};
 use egui::{Align, Label, Layout, Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 /// Runs from which on the table has a filter.

@@ -9,11 +9,11 @@ use crate::display::findings;
 use crate::display::format::{self, chance};
 use crate::effects::{Place, Source};
 use crate::window::app::Ask;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, folded, width};
 use crate::window::explained::Standing;
 use crate::window::language::{t, tr};
 use crate::window::schematic::symbols;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, folded, width};
 use egui::text::{Galley, LayoutJob, TextFormat};
 use egui::{
     Align2, Color32, CornerRadius, Frame, Label, Margin, Pos2, Rect, RichText, Role, Sense, StrokeKind, Ui, Vec2,

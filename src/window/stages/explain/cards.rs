@@ -15,10 +15,10 @@ use crate::effects::Source;
 use crate::session::corrections::{self, Adopted};
 use crate::session::validation::only_records;
 use crate::window::app::Ask;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::UiExt;
 use crate::window::explained::{Standing, WITHOUT_DAMPING};
 use crate::window::language::{t, tr};
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::UiExt;
 use egui::{Align, Button, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 
 /// Corrections that are told here; all of them have a pane of their own.

@@ -9,10 +9,10 @@ use crate::effects::{Effect, Place, Source};
 use crate::identify::Outcome;
 use crate::session::adoption::Adoption;
 use crate::session::{Command, EffectAt, Refusal, identified};
-use crate::window::cache::Cached;
-use crate::window::derived::Derived;
+use crate::window::background::cache::Cached;
+use crate::window::background::derived::Derived;
 use crate::window::document::Document;
-use crate::window::edits::Edit;
+use crate::window::document::edits::Edit;
 
 /// A change of the project and the sentence that says it once it is made.
 #[derive(Debug, Clone, PartialEq)]

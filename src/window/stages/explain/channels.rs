@@ -5,9 +5,9 @@ use crate::diagnosis::Diagnosis;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::display::format::in_words;
 use crate::window::app::Ask;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{Align, Layout, RichText, Ui};
 
 /// Shows the faults with the error before and after.

@@ -9,11 +9,11 @@ use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::scatter::{ChannelScatter, Estimated, RunScatter, Scatter};
 use crate::display::{findings, format};
 use crate::session::corrections::adopt;
-use crate::window::ask::Ask;
+use crate::window::app::ask::Ask;
+use crate::window::app::opened::Opened;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, folded};
 use crate::window::language::{t, tf, tr};
-use crate::window::opened::Opened;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, folded};
 use egui::{
     Align, Align2, CollapsingHeader, Color32, Layout, Painter, Rect, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo,
     pos2, vec2,

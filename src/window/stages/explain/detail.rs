@@ -9,9 +9,9 @@ use crate::plots::cycle::Cycle;
 use crate::plots::figure::Figure;
 use crate::plots::response_curve::{Curve, levels, neighbourhood};
 use crate::plots::samples;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, width};
 use crate::window::plots::show::Stack;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, Ui};
 
 /// What is shown of one cell.

@@ -3,10 +3,10 @@
 use crate::diagnosis::candidates::fingerprint_plot::Print;
 use crate::display::format;
 use crate::plots::fingerprint::{figure, words};
+use crate::window::appearance::theme::size;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
 use crate::window::plots::show::Stack;
-use crate::window::theme::size;
-use crate::window::widgets::UiExt;
 use egui::Ui;
 
 /// Shows the plot `height` points high; `name` is of the suggestion that it belongs to.

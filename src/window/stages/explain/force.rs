@@ -8,10 +8,10 @@ use crate::plots::restoring_force::{caption, figures, maps, title};
 use crate::plots::sheet::{Panel, Sheet};
 use crate::session::validation::is_component;
 use crate::structure::Structure;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
 use crate::window::plots::export;
 use crate::window::plots::show::{self, key_row};
-use crate::window::widgets::UiExt;
 use egui::{Align, Layout, Ui, vec2};
 
 /// Height of the plots.

@@ -2,9 +2,9 @@
 
 use crate::display::format::in_words;
 use crate::plots::error_map::Scale;
+use crate::window::appearance::theme::{self, Palette, size};
+use crate::window::appearance::widgets::{UiExt, width};
 use crate::window::language::tr;
-use crate::window::theme::{self, Palette, size};
-use crate::window::widgets::{UiExt, width};
 use egui::{Align2, Color32, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Strength of the colour between the error after it and the error now.

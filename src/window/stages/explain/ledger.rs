@@ -8,11 +8,11 @@ use crate::display::findings::is_stuck;
 use crate::display::format::in_words;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
 use crate::window::app::Ask;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, folded, width};
 use crate::window::explained::ledger::Ledger;
 use crate::window::language::tr;
 use crate::window::plots::show::Stack;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, folded, width};
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Shows chart and steps.

@@ -2,9 +2,9 @@
 
 use super::request::Request;
 use crate::window::app::Ask;
+use crate::window::appearance::theme::space;
+use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{t, tr};
-use crate::window::theme::space;
-use crate::window::widgets::UiExt;
 use egui::{ComboBox, RichText, Role, Ui, WidgetInfo};
 
 /// Limits that are offered, s.

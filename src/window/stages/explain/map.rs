@@ -5,11 +5,11 @@ use crate::display::format::in_words;
 use crate::exchange::Project;
 use crate::plots::error_map::{self, Cell, ENERGY, Grid, Scale};
 use crate::plots::figure::{Axis, Figure, Ticks};
+use crate::window::appearance::theme::{self, Palette, size};
+use crate::window::appearance::widgets::{UiExt, width};
 use crate::window::language::{numbers, t, tr};
 use crate::window::plots::cell_map::{CellMap, Field};
 use crate::window::plots::export;
-use crate::window::theme::{self, Palette, size};
-use crate::window::widgets::{UiExt, width};
 use egui::{
     Align2, Color32, FontId, Pos2, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,

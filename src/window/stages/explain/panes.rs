@@ -14,12 +14,12 @@ use crate::plots::error_map::{ENERGY, Scale};
 use crate::plots::response_curve::Curve;
 use crate::plots::samples;
 use crate::session::validation::only_records;
-use crate::window::ask::Ask;
-use crate::window::cache::Cached;
+use crate::window::app::ask::Ask;
+use crate::window::app::opened::Opened;
+use crate::window::appearance::theme::{size, space};
+use crate::window::appearance::widgets::UiExt;
+use crate::window::background::cache::Cached;
 use crate::window::language::{t, tr};
-use crate::window::opened::Opened;
-use crate::window::theme::{size, space};
-use crate::window::widgets::UiExt;
 use egui::{Align, Label, Layout, Rect, RichText, Ui};
 use std::sync::Arc;
 

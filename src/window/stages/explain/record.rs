@@ -9,10 +9,10 @@ use crate::display::format;
 use crate::plots::amplitude_curve::{figures, told};
 use crate::plots::figure::Figure;
 use crate::plots::record_residual::RecordResidual;
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::{UiExt, width};
 use crate::window::language::tr;
 use crate::window::plots::show::Stack;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::{UiExt, width};
 use egui::{Align, Layout, Ui};
 
 /// Share of the height that measured and modelled take above what is left.

@@ -6,12 +6,12 @@ use crate::display::format::in_words;
 use crate::effects::{Place, Source, State};
 use crate::plots::error_map::Scale;
 use crate::structure::Structure;
+use crate::window::app::view::View;
 use crate::window::document::Document;
 use crate::window::explained::Explained;
 use crate::window::schematic::Scene;
 use crate::window::schematic::model::SceneSource;
 use crate::window::schematic::view::SEPARATOR;
-use crate::window::view::View;
 use std::sync::Arc;
 
 /// What is laid over the schematic.

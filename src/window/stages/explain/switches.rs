@@ -2,9 +2,9 @@
 //! maps and plots have the height; else in the panes.
 
 use super::look::{Look, RecordTab, Tab};
+use crate::window::appearance::theme::{self, size, space};
+use crate::window::appearance::widgets::width;
 use crate::window::language::tr;
-use crate::window::theme::{self, size, space};
-use crate::window::widgets::width;
 use egui::Ui;
 
 /// Room of a title beside its words, points.

@@ -8,11 +8,11 @@ use choice::{Along, Choice, Error};
 use crate::classical::incompleteness::{Case, Incompleteness, METHODS};
 use crate::classical::method::Method;
 use crate::plots::figure::{Axis, Figure, Look, Ticks};
-use crate::window::derived::Derived;
+use crate::window::appearance::theme::{Palette, size};
+use crate::window::appearance::widgets::UiExt;
+use crate::window::background::derived::Derived;
 use crate::window::document::Document;
 use crate::window::plots::show::Stack;
-use crate::window::theme::{Palette, size};
-use crate::window::widgets::UiExt;
 use egui::{Color32, Label, RichText, Ui};
 
 /// Least error on the logarithmic axis, per cent: what is below it is as good as none.

@@ -1,6 +1,6 @@
 //! Frames of egui drawn into memory through wgpu, without a window.
 
-use super::solid;
+use crate::window::solid;
 use egui::{Context, Event, FullOutput, RawInput, Rect, Ui, Vec2, pos2};
 use egui_wgpu::{
     RenderState, Renderer, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuError, WgpuSetup,

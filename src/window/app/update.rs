@@ -1,22 +1,26 @@
 //! One frame: it takes over what has ended in the background, shows the panes, which read and ask, and answers them.
 
-use super::app::{App, Ask};
-use super::document::Document;
-use super::edits::Edit;
-use super::files::Pick;
-use super::frame::panes::Pane;
-use super::import::{dropped, is_project};
-use super::jobs::Done;
-use super::language::{self, Language};
-use super::leaving::Leave;
-use super::opened::Opened;
-use super::schematic::gesture::Intent;
-use super::stages::explain::request::Request;
-use super::theme::{Palette, space};
-use super::view::Stage;
-use super::{commands, frame, importing, learn, stages};
 use crate::display::units;
 use crate::session::recent::Recent;
+use crate::window::app::commands;
+use crate::window::app::leaving::Leave;
+use crate::window::app::opened::Opened;
+use crate::window::app::view::Stage;
+use crate::window::app::{App, Ask};
+use crate::window::appearance::theme::{Palette, space};
+use crate::window::background::jobs::Done;
+use crate::window::document::Document;
+use crate::window::document::edits::Edit;
+use crate::window::files::Pick;
+use crate::window::files::import::{dropped, is_project};
+use crate::window::frame;
+use crate::window::frame::panes::Pane;
+use crate::window::importing;
+use crate::window::language::{self, Language};
+use crate::window::learn;
+use crate::window::schematic::gesture::Intent;
+use crate::window::stages;
+use crate::window::stages::explain::request::Request;
 use egui::{CentralPanel, Context, Frame, Margin, Ui};
 use std::path::PathBuf;
 
@@ -169,7 +173,7 @@ impl App {
 
     /// Does what was asked for.
     pub fn answer(&mut self, ctx: &Context, ask: Ask) {
-        super::crash::remember(&ask.kind());
+        crate::window::crash::remember(&ask.kind());
         match ask {
             Ask::Command(command) => self.command(ctx, command),
             Ask::Edit(edit) => self.edit(ctx, &edit),
@@ -226,8 +230,8 @@ impl App {
     }
 
     /// Makes a new project from a template.
-    pub(super) fn new_from(&mut self, template: usize) {
-        let Some(template) = super::templates::ALL.get(template) else { return };
+    pub(crate) fn new_from(&mut self, template: usize) {
+        let Some(template) = crate::window::document::templates::ALL.get(template) else { return };
         match Document::new(template.text) {
             Ok(document) => {
                 self.loaded(document, false);
@@ -255,7 +259,7 @@ impl App {
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
-        super::solid::install(ui.ctx(), frame.wgpu_render_state());
+        crate::window::solid::install(ui.ctx(), frame.wgpu_render_state());
         self.frame(ui);
     }
 
@@ -263,7 +267,7 @@ impl eframe::App for App {
         eframe::set_value(storage, "desk", &self.desk);
         eframe::set_value(storage, "limit_s", &self.view.limit_s);
         // Where it is as the desktop asks, it goes on following the desktop.
-        let own = Some(self.view.less_motion).filter(|less| *less != super::motion::is_unwanted());
+        let own = Some(self.view.less_motion).filter(|less| *less != crate::window::appearance::motion::is_unwanted());
         eframe::set_value(storage, "less_motion", &own);
         eframe::set_value(storage, "units", &units::now());
         // The same of the language.

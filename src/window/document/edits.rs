@@ -136,8 +136,8 @@ mod tests {
     use crate::effects::{Effect, Place, Source};
     use crate::exchange::project::load;
     use crate::session::adoption::Adoption;
+    use crate::window::document::edits::Edit;
     use crate::window::document::{Applied, Document};
-    use crate::window::edits::Edit;
 
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0]\n\
                          ground_stiffness = [100.0, 0.0]\ncoupling_stiffness = [50.0]\n\

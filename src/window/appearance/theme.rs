@@ -1,9 +1,9 @@
 //! The looks of the window, in one file: type scale, spacing and the visuals of every widget, light and dark. Colours and
 //! sizes of type are those of the plots.
 
-use super::language::numbers;
 use crate::plots::style;
 pub use crate::plots::style::{Palette, size};
+use crate::window::language::numbers;
 use egui::style::NumberFormatter;
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Visuals};
 

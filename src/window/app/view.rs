@@ -1,13 +1,13 @@
 //! What is looked at: stage, selection, shape. Neither saved with the project nor undone.
 
-use super::schematic::view::ViewState;
-use super::stages::explain::look::Look;
-use super::stages::incompleteness::choice::Choice;
-use super::stages::run_table::Order;
 use crate::classical::method::Method;
 use crate::effects::Effect;
 use crate::response::frequency_response::Quantity;
 use crate::session::states::Against;
+use crate::window::schematic::view::ViewState;
+use crate::window::stages::explain::look::Look;
+use crate::window::stages::incompleteness::choice::Choice;
+use crate::window::stages::run_table::Order;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the work.

@@ -1,9 +1,9 @@
 //! Results of work in the background, by what they were computed from: what was computed once is there at once when undo leads
 //! back to it.
 
-use super::repaint::request_repaint;
 use crate::control::Control;
 use crate::session::jobs::Job;
+use crate::window::app::repaint::request_repaint;
 use egui::Context;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! An open project as panes see it.
 
-use super::derived::Derived;
-use super::document::Document;
-use super::view::View;
+use crate::window::app::view::View;
+use crate::window::background::derived::Derived;
+use crate::window::document::Document;
 
 /// What a pane reads of an open project, and the one thing that it changes itself: what is looked at. All else it asks for.
 #[derive(Debug)]

@@ -1,16 +1,16 @@
 //! What panes ask the window for, and what it answers.
 
-use super::commands::Command;
-use super::edits::Edit;
-use super::files::Pick;
-use super::frame::panes::Pane;
-use super::importing::destination::ImportAction;
-use super::leaving::Changes;
-use super::report_choice::ReportRequest;
-use super::schematic::gesture::Intent;
-use super::stages::explain::request::Request;
-use super::view::Stage;
 use crate::exchange::export::Format;
+use crate::window::app::commands::Command;
+use crate::window::app::leaving::Changes;
+use crate::window::app::view::Stage;
+use crate::window::document::edits::Edit;
+use crate::window::files::Pick;
+use crate::window::frame::panes::Pane;
+use crate::window::frame::report_choice::ReportRequest;
+use crate::window::importing::destination::ImportAction;
+use crate::window::schematic::gesture::Intent;
+use crate::window::stages::explain::request::Request;
 use std::path::PathBuf;
 
 /// A message that stays until it is closed.

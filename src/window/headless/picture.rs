@@ -1,12 +1,12 @@
 //! A stage drawn without a display, by the same code as the window, through wgpu.
 
-use super::app::App;
-use super::frame::panes::Pane;
-use super::offscreen::Offscreen;
-use super::plots::export;
-use super::stages::explain::look::RecordTab;
-use super::theme;
-use super::view::Stage;
+use crate::window::app::App;
+use crate::window::app::view::Stage;
+use crate::window::appearance::theme;
+use crate::window::frame::panes::Pane;
+use crate::window::headless::offscreen::Offscreen;
+use crate::window::plots::export;
+use crate::window::stages::explain::look::RecordTab;
 use egui::{Context, Theme};
 use std::path::PathBuf;
 

@@ -1,23 +1,32 @@
 //! The application: one document, what is derived from it, what is looked at.
 
-pub use super::ask::{Ask, Message};
-use super::derived::Derived;
-use super::document::{Applied, Document};
-use super::edits::Edit;
-use super::frame::choose::Choosing;
-use super::frame::desk::Desk;
-use super::frame::panes::Pane;
-use super::importing::Importing;
-use super::jobs::Jobs;
-use super::learn::Learn;
-use super::leaving::Leave;
-use super::photograph::Photograph;
-use super::plots::export::Exports;
-use super::repaint::RepaintGuard;
-use super::report_choice::{ReportChoice, ReportRequest};
-use super::view::{Stage, View};
+mod actions;
+pub mod ask;
+pub mod commands;
+pub(crate) mod leaving;
+pub(crate) mod opened;
+pub(crate) mod repaint;
+mod update;
+pub mod view;
+
 use crate::control::Control;
 use crate::session::recent::Recent;
+pub use crate::window::app::ask::{Ask, Message};
+use crate::window::app::leaving::Leave;
+use crate::window::app::repaint::RepaintGuard;
+use crate::window::app::view::{Stage, View};
+use crate::window::background::derived::Derived;
+use crate::window::background::jobs::Jobs;
+use crate::window::document::edits::Edit;
+use crate::window::document::{Applied, Document};
+use crate::window::frame::choose::Choosing;
+use crate::window::frame::desk::Desk;
+use crate::window::frame::panes::Pane;
+use crate::window::frame::report_choice::{ReportChoice, ReportRequest};
+use crate::window::headless::photograph::Photograph;
+use crate::window::importing::Importing;
+use crate::window::learn::Learn;
+use crate::window::plots::export::Exports;
 use egui::Context;
 use std::path::PathBuf;
 
@@ -110,7 +119,7 @@ impl App {
         self.messages.extend(self.message.clone());
     }
 
-    pub(super) fn note(&mut self, result: Result<(), String>) {
+    pub(crate) fn note(&mut self, result: Result<(), String>) {
         if let Err(error) = result {
             self.fail(error);
         }
@@ -123,7 +132,7 @@ impl App {
     }
 
     /// Gives up what runs, as the user asked.
-    pub(super) fn stop(&mut self) {
+    pub(crate) fn stop(&mut self) {
         if self.running().is_none() {
             return;
         }

@@ -1,21 +1,21 @@
 //! What the window does with measurement files: looks into them, makes a project of them, or adds them to the one that is open.
 
-use super::app::App;
-use super::ask::Ask;
-use super::edits::Edit;
-use super::files::Pick;
-use super::importing::destination::ImportAction;
-use super::importing::{Importing, Made, OpenProject, Progress};
 use crate::exchange::importing::Request;
 use crate::exchange::mapping::is_own_record;
 use crate::session::Command;
+use crate::window::app::App;
+use crate::window::app::ask::Ask;
+use crate::window::document::edits::Edit;
+use crate::window::files::Pick;
+use crate::window::importing::destination::ImportAction;
+use crate::window::importing::{Importing, Made, OpenProject, Progress};
 use egui::Context;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 impl App {
     /// Opens measurement files. Records in the program's own form go into the open project at once.
-    pub(super) fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
+    pub(crate) fn import(&mut self, ctx: &Context, files: &[PathBuf]) {
         if let Some(Importing::Ready(draft)) = &self.importing {
             // Files that are given one after the other belong together.
             let mut request = Request { channels: None, frf: None, ..draft.request.clone() };
@@ -54,7 +54,7 @@ impl App {
     }
 
     /// Lays the chosen files of a model under the measurements.
-    pub(super) fn lay_under(&mut self, ctx: &Context, files: Vec<PathBuf>) {
+    pub(crate) fn lay_under(&mut self, ctx: &Context, files: Vec<PathBuf>) {
         let Some(Importing::Ready(draft)) = &self.importing else { return };
         let mut request = draft.decided();
         // Whatever their ending, they were chosen as a model.
@@ -67,7 +67,7 @@ impl App {
     }
 
     /// Does what was asked for on the page.
-    pub(super) fn act_on_import(&mut self, ctx: &Context, action: ImportAction) {
+    pub(crate) fn act_on_import(&mut self, ctx: &Context, action: ImportAction) {
         match action {
             ImportAction::Cancel => self.importing = None,
             ImportAction::Model => self.pick(ctx, Pick::Model),
@@ -97,7 +97,7 @@ impl App {
     }
 
     /// Waits, at most so long, until files are read or their project is made.
-    pub(super) fn settle_import(&mut self, ctx: &Context, longest: Duration) {
+    pub(crate) fn settle_import(&mut self, ctx: &Context, longest: Duration) {
         let start = Instant::now();
         while matches!(self.importing, Some(Importing::Looking(_) | Importing::Making(..))) && start.elapsed() < longest
         {
@@ -107,7 +107,7 @@ impl App {
     }
 
     /// Takes over what the work of an import has come to.
-    pub(super) fn step_import(&mut self, ctx: &Context) {
+    pub(crate) fn step_import(&mut self, ctx: &Context) {
         let Some(importing) = self.importing.take() else { return };
         match importing.step(ctx) {
             Progress::Wait(importing) => self.importing = Some(importing),
@@ -130,12 +130,12 @@ impl App {
 }
 
 /// Whether a file is a project by its name.
-pub(super) fn is_project(file: &Path) -> bool {
+pub(crate) fn is_project(file: &Path) -> bool {
     file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
 }
 
 /// A dropped project is opened, dropped records are appended.
-pub(super) fn dropped(ctx: &Context) -> Vec<Ask> {
+pub(crate) fn dropped(ctx: &Context) -> Vec<Ask> {
     let files: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
     let (projects, records): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|f| is_project(f));
     let records = (!records.is_empty()).then_some(Ask::Import(records));

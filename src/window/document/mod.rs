@@ -3,13 +3,18 @@
 //! A change whose records were read before is made at once. One that needs records that were not (an import, another
 //! number of harmonics) is made once they are read in the background; when that fails or is cancelled, nothing has changed.
 
-use super::edits::Edit;
-use super::records::{Fitted, Missing, Records};
+pub mod edits;
+pub(crate) mod prepared_records;
+pub(crate) mod records;
+pub(crate) mod templates;
+
 use crate::control::Control;
 use crate::exchange::Project;
 use crate::exchange::project::ProjectFile;
 use crate::session::history::Gesture;
 use crate::session::{self, Command, Session};
+use crate::window::document::edits::Edit;
+use crate::window::document::records::{Fitted, Missing, Records};
 use std::path::Path;
 
 /// The open project.
@@ -237,7 +242,7 @@ mod tests {
     use crate::control::Control;
     use crate::effects::{Effect, Family, State};
     use crate::session::Command;
-    use crate::window::edits::Edit;
+    use crate::window::document::edits::Edit;
 
     const CHAIN: &str = "[project]\nformat = 1\ntitle = \"Chain\"\n[structure]\nkind = \"chain\"\nmasses = [1.0, 2.0, 1.0]\n\
                          ground_stiffness = [100.0, 0.0, 0.0]\ncoupling_stiffness = [50.0, 80.0]\n";

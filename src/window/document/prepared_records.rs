@@ -1,9 +1,9 @@
 //! Records, residuals and spectra ready to be drawn, computed in the background, a channel of a run each.
 
-use super::cache::{Background, CANCELLED, Cache};
 use crate::control::Control;
 use crate::measurement::Run;
 use crate::plots::trace::{Trace, trace};
+use crate::window::background::cache::{Background, CANCELLED, Cache};
 use egui::Context;
 use std::cell::Cell;
 use std::collections::HashSet;

@@ -1,18 +1,18 @@
 //! Files that the user chooses: by a dialog of the desktop or of the window, and what is done with them.
 
-use super::app::App;
-use super::files::{self, Pick};
-use super::frame::choose::Choosing;
-use super::import::is_project;
-use super::leaving::Leave;
 use crate::session::states::Against;
+use crate::window::app::App;
+use crate::window::app::leaving::Leave;
+use crate::window::files::import::is_project;
+use crate::window::files::{self, Pick};
+use crate::window::frame::choose::Choosing;
 use egui::Context;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 impl App {
     /// Does what files were chosen for.
-    pub(super) fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
+    pub(crate) fn picked(&mut self, ctx: &Context, pick: Pick, paths: Vec<PathBuf>) {
         let Some(first) = paths.first().cloned() else {
             if let Pick::Plot(_) = pick {
                 self.exports.give_up();
@@ -40,7 +40,7 @@ impl App {
     }
 
     /// Saves under another name.
-    pub(super) fn save_as(&mut self, path: &Path) {
+    pub(crate) fn save_as(&mut self, path: &Path) {
         let Some(document) = &mut self.document else { return };
         let saved = document.save_as(path);
         if let (Some(recent), Ok(())) = (&mut self.recent, &saved) {
@@ -54,7 +54,7 @@ impl App {
     }
 
     /// Shows a dialog of the desktop, or where it has none one of the window.
-    pub(super) fn pick(&mut self, ctx: &Context, pick: Pick) {
+    pub(crate) fn pick(&mut self, ctx: &Context, pick: Pick) {
         self.pick_named(ctx, pick, files::proposal(pick));
     }
 
@@ -80,7 +80,7 @@ impl App {
     }
 
     /// Asks where a plot is to be written, one plot at a time.
-    pub(super) fn ask_for_plot(&mut self, ctx: &Context) {
+    pub(crate) fn ask_for_plot(&mut self, ctx: &Context) {
         if self.choosing.is_some() || self.jobs.is_asking() {
             return;
         }

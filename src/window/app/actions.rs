@@ -1,21 +1,21 @@
 //! What each command of the table does.
 
-use super::app::App;
-use super::commands::Command;
-use super::document::Document;
-use super::edits::Edit;
-use super::files::{self, Pick};
-use super::leaving::{Changes, Leave};
-use super::menu_bar;
-use super::motion;
-use super::report_choice::{ReportChoice, ReportRequest};
-use super::view::Stage;
 use crate::exchange::Project;
 use crate::exchange::export::Format;
 use crate::exchange::project::file::ReportTable;
 use crate::identify::Outcome;
 use crate::report::{self, Known, LedgerRow, Origin, Request, Tables};
 use crate::session::Command as Change;
+use crate::window::app::App;
+use crate::window::app::commands::Command;
+use crate::window::app::leaving::{Changes, Leave};
+use crate::window::app::view::Stage;
+use crate::window::appearance::motion;
+use crate::window::document::Document;
+use crate::window::document::edits::Edit;
+use crate::window::files::{self, Pick};
+use crate::window::frame::menu_bar;
+use crate::window::frame::report_choice::{ReportChoice, ReportRequest};
 use egui::{Context, Theme, ViewportCommand};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -73,7 +73,7 @@ impl App {
     }
 
     /// Leaves transitions out, and ends what moves, or lets them be.
-    pub(super) fn set_less_motion(&mut self, ctx: &Context, less: bool) {
+    pub(crate) fn set_less_motion(&mut self, ctx: &Context, less: bool) {
         self.view.less_motion = less;
         self.view.animate &= !less;
         motion::set_less(ctx, less);
@@ -102,7 +102,7 @@ impl App {
     }
 
     /// Goes, or asks first what becomes of unsaved changes.
-    pub(super) fn leave(&mut self, ctx: &Context, to: Leave) {
+    pub(crate) fn leave(&mut self, ctx: &Context, to: Leave) {
         if self.document.as_ref().is_some_and(|d| d.session().is_dirty()) {
             self.leaving = Some(to);
         } else {
@@ -111,7 +111,7 @@ impl App {
     }
 
     /// The answer to what becomes of unsaved changes.
-    pub(super) fn left(&mut self, ctx: &Context, changes: Changes) {
+    pub(crate) fn left(&mut self, ctx: &Context, changes: Changes) {
         let Some(to) = self.leaving.take() else { return };
         match changes {
             Changes::Keep => {}
@@ -160,12 +160,12 @@ impl App {
     }
 
     /// Hands what was identified to another program.
-    pub(super) fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
+    pub(crate) fn export(&mut self, ctx: &Context, format: Format, path: PathBuf) {
         self.write_identified(ctx, "Exporting", move |p, outcome| files::export(p, outcome, format, &path));
     }
 
     /// Keeps what stands on the title page in the project, and asks where the report is to be written.
-    pub(super) fn want_report(&mut self, ctx: &Context, request: ReportRequest) {
+    pub(crate) fn want_report(&mut self, ctx: &Context, request: ReportRequest) {
         let changed = self.document.as_ref().is_some_and(|d| d.session().document().file().report != request.heading);
         if changed {
             self.edit(ctx, &Edit::Do(Change::SetReport(request.heading.clone())));
@@ -175,7 +175,7 @@ impl App {
     }
 
     /// Writes the report of what there is; what has not been computed yet is computed for it.
-    pub(super) fn report(&mut self, ctx: &Context, path: PathBuf) {
+    pub(crate) fn report(&mut self, ctx: &Context, path: PathBuf) {
         let Some(document) = &self.document else { return };
         let explained = &self.derived.explained;
         let row = |step: usize| {
@@ -212,7 +212,7 @@ impl App {
     }
 
     /// The desktop wants to close the window: not before it is asked what becomes of unsaved changes.
-    pub(super) fn ask_before_closing(&mut self, ctx: &Context) {
+    pub(crate) fn ask_before_closing(&mut self, ctx: &Context) {
         let asked = ctx.input(|i| i.viewport().close_requested());
         let dirty = self.document.as_ref().is_some_and(|d| d.session().is_dirty());
         if asked && dirty && !self.closing {

@@ -1,8 +1,8 @@
 //! What all panes are made of, as one extension of `egui::Ui`. All take English words and show them in the language of the window.
 
-use super::language::{numbers, tr};
-use super::theme::{self, Palette, size, space};
 use crate::display::{format, glossary, units};
+use crate::window::appearance::theme::{self, Palette, size, space};
+use crate::window::language::{numbers, tr};
 use egui::text::{Galley, LayoutJob, TextWrapping};
 use egui::{
     Align, Color32, ComboBox, CornerRadius, DragValue, FontId, Frame, Label, Layout, Margin, Pos2, Response, RichText,

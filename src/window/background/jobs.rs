@@ -1,11 +1,11 @@
 //! What runs in the background on behalf of the window: reading, fitting, asking for files, exporting. Nothing of it may
 //! hold up a frame.
 
-use super::document::{Document, Ready, Waiting};
-use super::files::{self, Pick};
-use super::repaint::request_repaint;
 use crate::control::Control;
 use crate::session::jobs::{Job, JobError};
+use crate::window::app::repaint::request_repaint;
+use crate::window::document::{Document, Ready, Waiting};
+use crate::window::files::{self, Pick};
 use egui::Context;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
 //! The one table of commands: label, tooltip and keys once; menus, buttons and keys read it.
 
-use super::menu_bar;
+use crate::window::frame::menu_bar;
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 /// What a menu entry, a button or a key can ask for.

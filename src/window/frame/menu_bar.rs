@@ -7,7 +7,7 @@ fn id() -> Id {
 }
 
 /// Notes the buttons of the menus, the first one first.
-pub(super) fn note(ctx: &Context, buttons: Vec<Id>) {
+pub(crate) fn note(ctx: &Context, buttons: Vec<Id>) {
     ctx.data_mut(|d| d.insert_temp(id(), buttons));
 }
 
@@ -16,14 +16,14 @@ fn buttons(ctx: &Context) -> Vec<Id> {
 }
 
 /// Moves the focus to the first menu.
-pub(super) fn focus(ctx: &Context) {
+pub(crate) fn focus(ctx: &Context) {
     if let Some(first) = buttons(ctx).first() {
         ctx.memory_mut(|m| m.request_focus(*first));
     }
 }
 
 /// Whether plain keys belong to the menus: one has the focus, or something that opened over the window is shown.
-pub(super) fn has_keys(ctx: &Context) -> bool {
+pub(crate) fn has_keys(ctx: &Context) -> bool {
     let focused = ctx.memory(egui::Memory::focused);
     Popup::is_any_open(ctx) || focused.is_some_and(|id| buttons(ctx).contains(&id))
 }

@@ -1,12 +1,6 @@
 //! What is computed from the document, each remembering the revision it was computed from; everything that may take longer
 //! than a frame in the background.
 
-use super::cache::{Background, Cache, Cached};
-use super::document::Document;
-use super::explained::Explained;
-use super::prepared_records::{PreparedRecord, PreparedRecords};
-use super::schematic::Scene;
-use super::view::View;
 use crate::classical::FrequencyResponses;
 use crate::classical::incompleteness::{self, Grid, Incompleteness};
 use crate::classical::side_by_side::{SideBySide, side_by_side};
@@ -20,6 +14,12 @@ use crate::plots::unsteady_record::UnsteadyRecord;
 use crate::session::Revisions;
 use crate::session::states::{self, Against, Compared};
 use crate::structure::modes::Modes;
+use crate::window::app::view::View;
+use crate::window::background::cache::{Background, Cache, Cached};
+use crate::window::document::Document;
+use crate::window::document::prepared_records::{PreparedRecord, PreparedRecords};
+use crate::window::explained::Explained;
+use crate::window::schematic::Scene;
 use egui::Context;
 use std::sync::Arc;
 

@@ -1,13 +1,13 @@
 //! Where each stage stands, and why in one line.
 
-use super::app::App;
-use super::frame::top::StageStatus;
-use super::stages;
-use super::stages::identified::{NO_CANDIDATES, has_candidates};
-use super::view::Stage;
 use crate::display::words;
 use crate::identify::Status;
 use crate::session::validation::has_records;
+use crate::window::app::App;
+use crate::window::app::view::Stage;
+use crate::window::frame::top::StageStatus;
+use crate::window::stages;
+use crate::window::stages::identified::{NO_CANDIDATES, has_candidates};
 
 impl App {
     /// Where the stage stands, for its tab: whether it needs attention and why, in one line.

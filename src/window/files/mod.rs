@@ -1,5 +1,8 @@
 //! Files that the user is asked for, in the desktop's own dialogs.
 
+pub(crate) mod chosen_files;
+pub(crate) mod import;
+
 use crate::exchange::Project;
 use crate::exchange::export::{Format, write_outcome};
 use crate::identify::Outcome;
