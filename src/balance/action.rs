@@ -5,7 +5,7 @@
 //! for a unit loss stiffness; Coulomb with one harmonic `4 |D|` (5.38 with `D` the relative amplitude). Every other law by
 //! sampling one period. Over the whole structure `pi sum_h h X_h^H Im(factor) B X_h`.
 
-use crate::effects::{Basis, Kind, Law, Leg, Motion, Place, Source, WholeLaw};
+use crate::effects::{Basis, Kind, Law, Leg, Motion, Source, WholeLaw};
 use crate::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::{PI, TAU};
@@ -104,16 +104,12 @@ fn leg_energy(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64], scale: f64)
 fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     (0..field.numbers.len())
         .map(|k| {
-            let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+            let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
             let factor = law.factor(source.coefficient(), field.frequency(k)).im;
             let form: f64 = (0..bx.len()).map(|i| (field.x[(i, k)].conj() * bx[i]).re).sum();
             PI * field.numbers[k] as f64 * factor * form
         })
         .sum()
-}
-
-fn range(place: &Place) -> Option<[usize; 2]> {
-    if let Place::Whole(range) = place { *range } else { None }
 }
 
 /// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
@@ -170,7 +166,7 @@ pub(crate) fn add_energy_gradient(
             for k in 0..field.numbers.len() {
                 let factor = law.factor(source.coefficient(), field.frequency(k)).im;
                 let scale = weight * 2.0 * PI * field.numbers[k] as f64 * factor;
-                let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+                let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
                 for (i, value) in bx.into_iter().enumerate() {
                     gradient[(i, k)] += value * scale;
                 }
@@ -216,7 +212,7 @@ pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) ->
 fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     let at_harmonic = |k: usize| -> Vec<c64> {
         let factor = law.factor(source.coefficient(), field.frequency(k));
-        let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+        let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
         bx.into_iter().map(|v| v * factor).collect()
     };
     let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();
@@ -278,7 +274,7 @@ pub(crate) fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Seca
         }
         Kind::Whole(law) => {
             let factor = law.factor(source.coefficient(), field.frequency(k));
-            Some(Secant::Whole(law.basis(), range(&source.place), factor))
+            Some(Secant::Whole(law.basis(), source.place.elements(), factor))
         }
         Kind::Channel(_) => None,
     }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 use super::*;
 use crate::common::models;
-use crate::effects::Effect;
+use crate::effects::{Effect, Place};
 use crate::structure::Part;
 
 fn chain() -> Structure {
