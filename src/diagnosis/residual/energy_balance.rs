@@ -5,7 +5,7 @@
 //! taken = sum over sources of integral d' F dt                       (4.22)
 //! ```
 //!
-//! Where not every DOF is measured the field is that of the model, its harmonics each scaled by the complex factor that
+//! Where every DOF is measured, `points::energies` takes the measured motion; here it is that of the model, its harmonics each scaled by the complex factor that
 //! fits the sensors best: near a resonance the shape of the motion is known far better than its size.
 
 use crate::balance::action::{self, Field};
