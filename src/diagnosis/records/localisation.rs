@@ -263,3 +263,6 @@ fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
     let explained = EquilibratedCholesky::new(matrix.as_ref(), RIDGE).map_or(0.0, |n| dot(&n.solve(&rhs), &rhs));
     [(square - explained).max(0.0), freedom]
 }
+
+#[cfg(test)]
+mod tests;
