@@ -142,7 +142,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models::{chain, source};
-    use crate::common::runs::decay;
+    use crate::common::runs::{decay, uniform};
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::effects::Effect;
@@ -150,14 +150,10 @@ mod tests {
 
     /// Decays of a chain in both modes, as `truth` of `records` gives them, with noise that is the same at every call.
     fn decays(records: &Records, truth: &FittedRecords) -> Vec<TransientRun> {
-        let mut state = 1_u64;
-        let mut noise = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
-        };
+        let mut uniform = uniform(1);
         let mut decay_of_record = |r: usize| {
             let mut rows = truth.predict(records, r, records.list[r].len(), &[]).unwrap().channels;
-            rows.iter_mut().flatten().for_each(|y| *y += noise());
+            rows.iter_mut().flatten().for_each(|y| *y += 4e-5 * uniform());
             decay(4e-3, rows)
         };
         (0..records.list.len()).map(&mut decay_of_record).collect()

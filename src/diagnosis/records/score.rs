@@ -300,6 +300,7 @@ fn diverse(all: Vec<Scored>) -> Vec<Scored> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::runs::uniform;
     use crate::control::Control;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
@@ -336,11 +337,8 @@ mod tests {
         };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
-        let mut state = 1_u64;
-        for y in rows.iter_mut().flatten() {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            *y += 4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
-        }
+        let mut uniform = uniform(1);
+        rows.iter_mut().flatten().for_each(|y| *y += 4e-5 * uniform());
         let time = (0..SAMPLES).map(|k| STEP * k as f64).collect();
         let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
         TransientRun::new(label, Arc::new(Record::new(time, channels, rows).unwrap()), &[]).unwrap()
