@@ -104,7 +104,7 @@ fn leg_energy(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64], scale: f64)
 fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     (0..field.numbers.len())
         .map(|k| {
-            let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
+            let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
             let factor = law.factor(source.coefficient(), field.frequency(k)).im;
             let form: f64 = (0..bx.len()).map(|i| (field.x[(i, k)].conj() * bx[i]).re).sum();
             PI * field.numbers[k] as f64 * factor * form
@@ -113,12 +113,7 @@ fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, fiel
 }
 
 /// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
-pub(crate) fn basis_times(
-    structure: &Structure,
-    basis: Basis,
-    range: Option<[usize; 2]>,
-    (field, k): (Field<'_>, usize),
-) -> Vec<c64> {
+fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]>, field: Field<'_>, k: usize) -> Vec<c64> {
     let x = field.x;
     let mut product = vec![c64::new(0.0, 0.0); structure.len()];
     if let Some(range) = range {
@@ -166,7 +161,7 @@ pub(crate) fn add_energy_gradient(
             for k in 0..field.numbers.len() {
                 let factor = law.factor(source.coefficient(), field.frequency(k)).im;
                 let scale = weight * 2.0 * PI * field.numbers[k] as f64 * factor;
-                let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
+                let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
                 for (i, value) in bx.into_iter().enumerate() {
                     gradient[(i, k)] += value * scale;
                 }
@@ -212,7 +207,7 @@ pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) ->
 fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     let at_harmonic = |k: usize| -> Vec<c64> {
         let factor = law.factor(source.coefficient(), field.frequency(k));
-        let bx = basis_times(structure, law.basis(), source.place.elements(), (field, k));
+        let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
         bx.into_iter().map(|v| v * factor).collect()
     };
     let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();
