@@ -5,7 +5,7 @@
 //! for a unit loss stiffness; Coulomb with one harmonic `4 |D|` (5.38 with `D` the relative amplitude). Every other law by
 //! sampling one period. Over the whole structure `pi sum_h h X_h^H Im(factor) B X_h`.
 
-use crate::effects::{Basis, Kind, Law, Leg, Motion, Place, Source, WholeLaw};
+use crate::effects::{Basis, Kind, Law, Leg, Motion, Source, WholeLaw};
 use crate::structure::Structure;
 use faer::{Mat, c64};
 use std::f64::consts::{PI, TAU};
@@ -27,7 +27,8 @@ pub struct Field<'a> {
 }
 
 impl Field<'_> {
-    fn relative(&self, leg: Leg) -> Vec<c64> {
+    /// Displacement of a leg, one value a harmonic, m.
+    pub(crate) fn relative(&self, leg: Leg) -> Vec<c64> {
         (0..self.numbers.len()).map(|k| leg.relative(|dof| self.x[(dof, k)])).collect()
     }
 
@@ -43,6 +44,16 @@ impl Field<'_> {
     fn frequency(&self, k: usize) -> f64 {
         self.numbers[k] as f64 * self.omega
     }
+
+    /// Work of a force (N, one value a harmonic) at a DOF over one period, J.
+    pub(crate) fn work(&self, dof: usize, force: &[c64]) -> f64 {
+        work(force.iter().enumerate().map(|(k, f)| (self.numbers[k], self.x[(dof, k)], *f)))
+    }
+}
+
+/// Work of a force on its motion over one period, J: `pi sum_h h Im(conj(X_h) F_h)` (4.5) of numbers `h`, displacements (m) and forces (N).
+pub(crate) fn work(harmonics: impl IntoIterator<Item = (usize, c64, c64)>) -> f64 {
+    PI * harmonics.into_iter().map(|(h, x, f)| h as f64 * (x.conj() * f).im).sum::<f64>()
 }
 
 /// A force on one DOF, one value a harmonic.
@@ -60,15 +71,17 @@ pub enum Secant {
 /// Energy in J that `source` takes out over one period, at its own parameters.
 pub(crate) fn energy(source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     match source.effect.kind() {
-        Kind::Relative(law) => source
-            .place
-            .legs()
-            .iter()
-            .map(|&leg| leg_energy(law, &source.parameters, field, &field.relative(leg), 1.0))
-            .sum(),
+        Kind::Relative(_) => relative_energy(source, field),
         Kind::Whole(law) => whole_energy(law, source, structure, field),
         Kind::Channel(_) => 0.0,
     }
+}
+
+/// The same of a law on relative motions, which needs no structure.
+pub(crate) fn relative_energy(source: &Source, field: Field<'_>) -> f64 {
+    let Some(law) = source.effect.law().filter(|_| source.effect.dissipates()) else { return 0.0 };
+    let of_leg = |leg: Leg| leg_energy(law, &source.parameters, field, &field.relative(leg), 1.0);
+    source.place.legs().into_iter().map(of_leg).sum()
 }
 
 /// Energy of one law on the relative motion `scale d`.
@@ -91,7 +104,7 @@ fn leg_energy(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64], scale: f64)
 fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     (0..field.numbers.len())
         .map(|k| {
-            let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+            let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
             let factor = law.factor(source.coefficient(), field.frequency(k)).im;
             let form: f64 = (0..bx.len()).map(|i| (field.x[(i, k)].conj() * bx[i]).re).sum();
             PI * field.numbers[k] as f64 * factor * form
@@ -99,17 +112,8 @@ fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, fiel
         .sum()
 }
 
-fn range(place: &Place) -> Option<[usize; 2]> {
-    if let Place::Whole(range) = place { *range } else { None }
-}
-
 /// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
-pub(crate) fn basis_times(
-    structure: &Structure,
-    basis: Basis,
-    range: Option<[usize; 2]>,
-    (field, k): (Field<'_>, usize),
-) -> Vec<c64> {
+fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]>, field: Field<'_>, k: usize) -> Vec<c64> {
     let x = field.x;
     let mut product = vec![c64::new(0.0, 0.0); structure.len()];
     if let Some(range) = range {
@@ -157,7 +161,7 @@ pub(crate) fn add_energy_gradient(
             for k in 0..field.numbers.len() {
                 let factor = law.factor(source.coefficient(), field.frequency(k)).im;
                 let scale = weight * 2.0 * PI * field.numbers[k] as f64 * factor;
-                let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+                let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
                 for (i, value) in bx.into_iter().enumerate() {
                     gradient[(i, k)] += value * scale;
                 }
@@ -203,7 +207,7 @@ pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) ->
 fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     let at_harmonic = |k: usize| -> Vec<c64> {
         let factor = law.factor(source.coefficient(), field.frequency(k));
-        let bx = basis_times(structure, law.basis(), range(&source.place), (field, k));
+        let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
         bx.into_iter().map(|v| v * factor).collect()
     };
     let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();
@@ -265,7 +269,7 @@ pub(crate) fn secant(source: &Source, field: Field<'_>, k: usize) -> Option<Seca
         }
         Kind::Whole(law) => {
             let factor = law.factor(source.coefficient(), field.frequency(k));
-            Some(Secant::Whole(law.basis(), range(&source.place), factor))
+            Some(Secant::Whole(law.basis(), source.place.elements(), factor))
         }
         Kind::Channel(_) => None,
     }
@@ -290,84 +294,4 @@ pub(crate) fn secant_force(source: &Source, field: Field<'_>) -> Vec<DofForce> {
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests")]
-    use super::*;
-    use crate::common::models;
-    use crate::effects::Effect;
-    use crate::structure::Part;
-
-    fn chain() -> Structure {
-        models::chain(&[1.0, 2.0], &[10.0, 0.0], &[20.0])
-    }
-
-    fn motion() -> Mat<c64> {
-        Mat::from_fn(2, 2, |i, k| c64::new(0.3 + i as f64, 0.2 - k as f64) * 0.1)
-    }
-
-    fn all_sources() -> Vec<Source> {
-        vec![
-            Source::known(Effect::Viscous, Place::Dofs(vec![0, 1]), &[2.0]),
-            Source::known(Effect::Viscous, Place::Dofs(vec![1]), &[2.0]),
-            Source::known(Effect::LossFactor, Place::Whole(None), &[0.1]),
-            Source::known(Effect::MassProportional, Place::Whole(None), &[0.1]),
-            Source::known(Effect::StiffnessProportional, Place::Whole(None), &[0.1]),
-        ]
-    }
-
-    /// Energy is the work of the force: `pi sum h Im(conj(X) F)`, an independent route.
-    #[test]
-    fn energy_is_the_work_of_the_force() {
-        let (structure, x) = (chain(), motion());
-        let field = Field { omega: 3.0, numbers: &[1, 3], x: &x };
-        for source in all_sources() {
-            let work: f64 = force(&source, &structure, field)
-                .iter()
-                .map(|(dof, f)| {
-                    (0..2).map(|k| PI * field.numbers[k] as f64 * (x[(*dof, k)].conj() * f[k]).im).sum::<f64>()
-                })
-                .sum();
-            let exact = energy(&source, &structure, field);
-            assert!(exact > 0.0 && (work - exact).abs() < 1e-13 * exact, "{source:?}: {work} {exact}");
-        }
-    }
-
-    /// A loss factor that doubles by octave damps every mode as a dashpot does: `pi sum h eta omega_r h omega |q_r|^2`, `q = Phi^T M x`.
-    #[test]
-    fn a_loss_factor_that_doubles_by_octave_takes_the_energy_of_viscous_damping() {
-        let (stated, x) = (chain(), motion());
-        let corrected = stated.with_factors(&[0, 1].map(|mode| (Part::ModeDampingPerOctave(mode), 2.0)));
-        let field = Field { omega: 3.0, numbers: &[1, 3], x: &x };
-        let (modes, mass) = (stated.modes().unwrap(), [1.0, 2.0]);
-        let of_mode = |r: usize, k: usize| {
-            let q = (0..2).map(|i| x[(i, k)] * (modes.shapes[(i, r)] * mass[i])).sum::<c64>();
-            PI * field.numbers[k] as f64 * 0.1 * modes.omega[r] * field.frequency(k) * q.norm_sqr()
-        };
-        let expected: f64 = (0..2).flat_map(|r| (0..2).map(move |k| (r, k))).map(|(r, k)| of_mode(r, k)).sum();
-        let source = Source::known(Effect::LossFactor, Place::Whole(None), &[0.1]);
-        let found = energy(&source, &corrected, field);
-        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected} J");
-    }
-
-    #[test]
-    fn gradient_agrees_with_finite_differences() {
-        let structure = chain().with_factors(&[(Part::ModeDampingPerOctave(0), 1.7)]);
-        let x = motion();
-        for source in all_sources() {
-            let mut gradient = Mat::zeros(2, 2);
-            let field = Field { omega: 3.0, numbers: &[1, 3], x: &x };
-            add_energy_gradient(&source, &structure, field, 1.0, &mut gradient);
-            let step = c64::new(0.6, -0.8) * 1e-6;
-            for (i, k) in [(0, 0), (1, 1)] {
-                let energy_beside = |sign: f64| {
-                    let mut moved = x.clone();
-                    moved[(i, k)] += step * sign;
-                    energy(&source, &structure, Field { omega: 3.0, numbers: &[1, 3], x: &moved })
-                };
-                let (difference, expected) =
-                    ((energy_beside(1.0) - energy_beside(-1.0)) / 2.0, (gradient[(i, k)].conj() * step).re);
-                assert!((difference - expected).abs() < 1e-12, "{source:?}");
-            }
-        }
-    }
-}
+mod tests;

@@ -95,7 +95,7 @@ pub(crate) fn input_energy(
                 let dof = structure.label(dof).to_string();
                 return Err(BalanceError::DriveUnmeasured { file: measured.file.clone(), dof });
             };
-            sum += PI * measured.numbers[k] as f64 * (x.conj() * measured.forces.values[(j, k)]).im;
+            sum += action::work([(measured.numbers[k], x, measured.forces.values[(j, k)])]);
         }
     }
     Ok(sum)

@@ -9,13 +9,11 @@
 //! harmonic the friction column is `4 |X|`, parallel to the viscous one where `w |X|` is the same in every run.
 
 use super::error::ClassicalError;
-use crate::math::fill::filled;
+use crate::balance::action::{Field, relative_energy};
+use crate::effects::{Effect, Place, Source};
+use crate::math::fill::{filled, filled_complex};
 use crate::math::least_squares::LeastSquares;
 use faer::c64;
-use std::f64::consts::{PI, TAU};
-
-/// Samples of one period for the friction column of several harmonics.
-const SAMPLES: usize = 4096;
 
 /// One steady state: complex amplitudes of harmonics 1, 2, ...
 #[derive(Debug, Clone, PartialEq)]
@@ -34,24 +32,22 @@ impl SteadyState {
         super::hysteresis_loop::from_harmonics(self.omega, &self.displacement, &self.force, 1.0).area
     }
 
-    /// `integral v^2 dt`, m^2/s.
+    /// `integral v^2 dt`, m^2/s: what a unit dashpot takes out.
     pub fn viscous(&self) -> f64 {
-        let term = |(h, x): (usize, &c64)| ((h + 1) as f64).powi(2) * x.norm_sqr();
-        PI * self.omega * self.displacement.iter().enumerate().map(term).sum::<f64>()
+        self.taken(Effect::DASHPOT)
     }
 
-    /// `integral |v| dt`, m.
+    /// `integral |v| dt`, m: what a unit friction force takes out.
     pub fn friction(&self) -> f64 {
-        if let [only] = self.displacement.as_slice() {
-            return 4.0 * only.norm();
-        }
-        // The path length: the distance between successive positions.
-        let displacement_at = |i: usize| -> f64 {
-            let angle = TAU * (i % SAMPLES) as f64 / SAMPLES as f64;
-            let turned = |(h, x): (usize, &c64)| (x * c64::from_polar(1.0, (h + 1) as f64 * angle)).re;
-            self.displacement.iter().enumerate().map(turned).sum()
-        };
-        (0..SAMPLES).map(|i| (displacement_at(i + 1) - displacement_at(i)).abs()).sum()
+        self.taken(Effect::Coulomb)
+    }
+
+    /// Energy that a law of unit coefficient takes out over one period, J a unit.
+    fn taken(&self, law: Effect) -> f64 {
+        let numbers: Vec<usize> = (1..=self.displacement.len()).collect();
+        let x = filled_complex(1, numbers.len(), |_, k| self.displacement[k]);
+        let source = Source::known(law, Place::Dofs(vec![0]), &[1.0]);
+        relative_energy(&source, Field { omega: self.omega, numbers: &numbers, x: &x })
     }
 }
 

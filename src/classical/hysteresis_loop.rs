@@ -7,6 +7,7 @@
 //! **Needs** force and displacement at one DOF in steady state; a stiffness for the loss factor. **Limits**: an equivalent at
 //! this amplitude and frequency; on a structure the drive point's loop holds all that is lost anywhere.
 
+use crate::balance::action::work;
 use faer::c64;
 use std::f64::consts::PI;
 
@@ -23,8 +24,7 @@ pub struct Loop {
 
 /// From complex amplitudes of harmonics 1, 2, ... of displacement (m) and force (N), frequency in rad/s, stiffness in N/m.
 pub fn from_harmonics(omega: f64, displacement: &[c64], force: &[c64], stiffness: f64) -> Loop {
-    let term = |(h, (x, f)): (usize, (&c64, &c64))| (h + 1) as f64 * (x.conj() * f).im;
-    let area = PI * displacement.iter().zip(force).enumerate().map(term).sum::<f64>();
+    let area = work((1..).zip(displacement).zip(force).map(|((h, x), f)| (h, *x, *f)));
     let speed: f64 = displacement.iter().enumerate().map(|(h, x)| ((h + 1) as f64).powi(2) * x.norm_sqr()).sum();
     let size: f64 = displacement.iter().map(c64::norm_sqr).sum();
     Loop { area, viscous: area / (PI * omega * speed), loss_factor: area / (PI * stiffness * size) }

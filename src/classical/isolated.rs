@@ -57,7 +57,8 @@ pub(super) fn alone(
     responses: &FrequencyResponses,
     modes: &[ExtractedMode],
     r: usize,
-    (line, pair): (usize, (usize, usize)),
+    line: usize,
+    pair: (usize, usize),
 ) -> c64 {
     let s = c64::new(0.0, responses.omega[line]);
     let term = |m: &ExtractedMode| {

@@ -20,7 +20,6 @@ use crate::math::fill::filled_complex;
 use crate::math::least_squares::LeastSquares;
 use crate::structure::Structure;
 use faer::{Mat, c64};
-use std::f64::consts::PI;
 
 /// Part of the largest coefficient that is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -105,14 +104,14 @@ pub fn liang(
         let field = period.field();
         for (j, source) in units.iter().enumerate() {
             for (dof, force) in action::force(source, structure, field) {
-                rows[(n * r + dof, j)] += work(field, dof, &force);
+                rows[(n * r + dof, j)] += field.work(dof, &force);
             }
         }
         let first = right.len();
         right.extend(remaining(structure, period));
         for source in known {
             for (dof, force) in action::force(source, structure, field) {
-                right[first + dof] -= work(field, dof, &force);
+                right[first + dof] -= field.work(dof, &force);
             }
         }
     }
@@ -131,12 +130,6 @@ pub fn liang(
     Ok(Balanced { coefficients, damping })
 }
 
-/// Work of a force (one value a kept harmonic) at a DOF over one period, J.
-fn work(field: Field<'_>, dof: usize, force: &[c64]) -> f64 {
-    let term = |k: usize| field.numbers[k] as f64 * (field.x[(dof, k)].conj() * force[k]).im;
-    PI * (0..force.len()).map(term).sum::<f64>()
-}
-
 /// `beta_i` of one period.
 fn remaining(structure: &Structure, period: &Period) -> Vec<f64> {
     let Some(matrices) = structure.matrices() else { return Vec::new() };
@@ -150,7 +143,7 @@ fn remaining(structure: &Structure, period: &Period) -> Vec<f64> {
         period.force[(i, k)] - exchanged
     };
     let harmonics = 0..period.numbers.len();
-    (0..n).map(|i| work(field, i, &harmonics.clone().map(|k| force(i, k)).collect::<Vec<c64>>())).collect()
+    (0..n).map(|i| field.work(i, &harmonics.clone().map(|k| force(i, k)).collect::<Vec<c64>>())).collect()
 }
 
 /// `sum c_j L_j L_j^T` of the viscous sources.

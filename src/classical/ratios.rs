@@ -69,7 +69,7 @@ impl Data<'_> {
             let within = |k: &usize| (responses.omega[*k] - pole.im).abs() < pole.re.abs();
             let (mut area, mut energy) = (0.0, 0.0);
             for k in about(&responses.omega, pole).filter(within) {
-                let x = alone(responses, self.extracted, r, (k, (sensor, drive)));
+                let x = alone(responses, self.extracted, r, k, (sensor, drive));
                 let (omega, q) = (responses.omega[k], x.norm() / phi(drive));
                 area += super::hysteresis_loop::from_harmonics(omega, &[x], &[c64::new(1.0, 0.0)], 1.0).area;
                 energy += TAU * omega * pole.norm() * q * q;

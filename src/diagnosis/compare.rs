@@ -5,7 +5,7 @@
 //! the residual that noise and truncation alone would leave.
 
 use crate::control::Control;
-use crate::diagnosis::points::energies::{PointsEnergy, energies};
+use crate::diagnosis::points::energies::{PointsEnergy, energies, where_all_is_measured};
 use crate::diagnosis::residual::branch::nearest;
 use crate::diagnosis::residual::breakdown::{Group, by_channel, by_harmonic, by_level};
 use crate::diagnosis::residual::comparison::{ChannelComparison, HarmonicComparison, RunComparison};
@@ -114,7 +114,9 @@ pub fn compare(problem: &Problem, effects: &[Source], control: &Control) -> Resu
         let transfers = transfers(&predictor, r, run, effects, control).map_err(failed)?;
         let noise = Whitening::new(run, &transfers, &prediction.truncation);
         let used = is_used(&problem.runs[run.index]);
-        let energy = energy_error(problem.structure, &predictor.sources(effects), run, &prediction);
+        let sources = predictor.sources(effects);
+        let energy = where_all_is_measured(problem, run.index, &sources)
+            .map_or_else(|| energy_error(problem.structure, &sources, run, &prediction), |energy| energy.error());
         let mut left = Vec::new();
         if used {
             add_left(&mut left, run, &prediction, &noise, ([frequencies[r], levels.numbers[r]], &names[0]));

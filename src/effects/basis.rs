@@ -21,15 +21,21 @@ impl Basis {
         }
     }
 
-    /// The matrix on which laws of the whole structure act, n x n: [`Self::of_system`] with the damping of modes as it is
-    /// corrected ([`crate::structure::mode_damping`]).
-    pub fn of_structure(self, structure: &Structure, matrices: &SystemMatrices) -> Mat<f64> {
-        let mut matrix = self.of_system(matrices).clone();
+    /// The matrix on which a law of the whole structure acts, or of a `range` of its elements, n x n: [`Self::of_system`] with the damping of
+    /// modes as it is corrected ([`crate::structure::mode_damping`]), or the matrices of the elements alone. `None` without matrices.
+    pub fn matrix(self, structure: &Structure, range: Option<[usize; 2]>) -> Option<Mat<f64>> {
+        let system = structure.matrices()?;
+        if let Some(range) = range {
+            let mut sum = Mat::zeros(structure.len(), structure.len());
+            self.entries(structure, range).for_each(|(row, column, value)| sum[(row, column)] += value);
+            return Some(sum);
+        }
+        let mut matrix = self.of_system(system).clone();
         for mode in structure.damping_of_modes() {
             let (v, size) = (&mode.pattern, self.more_of(mode));
             matrix += Mat::from_fn(v.len(), v.len(), |i, j| size * v[i] * v[j]);
         }
-        matrix
+        Some(matrix)
     }
 
     /// What the matrix of a structure has more of a mode than that of the system, `(f - 1) b`.
@@ -58,17 +64,7 @@ impl Basis {
         [first, last]: [usize; 2],
     ) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         structure.elements().iter().take(last + 1).skip(first).flat_map(move |element| {
-            let local = if self == Self::Mass { &element.mass } else { &element.stiffness };
-            let count = element.dofs.len();
-            let pairs = (0..count).flat_map(move |a| (0..count).map(move |b| (a, b)));
-            pairs.filter_map(move |(a, b)| Some((element.dofs[a]?, element.dofs[b]?, local[(a, b)])))
+            element.entries(if self == Self::Mass { &element.mass } else { &element.stiffness })
         })
-    }
-
-    /// The matrix of a range of elements alone, n x n.
-    pub fn of_elements(self, structure: &Structure, range: [usize; 2]) -> Mat<f64> {
-        let mut sum = Mat::zeros(structure.len(), structure.len());
-        self.entries(structure, range).for_each(|(row, column, value)| sum[(row, column)] += value);
-        sum
     }
 }

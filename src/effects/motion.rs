@@ -77,18 +77,12 @@ impl Motion {
         }
     }
 
-    /// Energy in J over one period of a linear law of dynamic stiffness `z`: `pi sum_h h Im z(h omega) |D_h|^2`.
+    /// Energy in J over one period of a linear law of dynamic stiffness `z` (N/m at rad/s): `pi sum_h h Im z(h omega) |D_h|^2`.
     pub fn linear_energy(&self, z: impl Fn(f64) -> c64) -> f64 {
-        linear_energy(self.omega, &self.harmonics, z)
+        let term = |(index, d): (usize, &c64)| {
+            let h = (index + 1) as f64;
+            h * z(h * self.omega).im * d.norm_sqr()
+        };
+        PI * self.harmonics.iter().enumerate().map(term).sum::<f64>()
     }
-}
-
-/// Energy in J over one period `2 pi / omega` of a linear law of dynamic stiffness `z` (N/m at rad/s) under harmonics
-/// 1, 2, ... of its relative displacement (m): `pi sum_h h Im z(h omega) |D_h|^2`.
-pub(crate) fn linear_energy(omega: f64, harmonics: &[c64], z: impl Fn(f64) -> c64) -> f64 {
-    let term = |(index, d): (usize, &c64)| {
-        let h = (index + 1) as f64;
-        h * z(h * omega).im * d.norm_sqr()
-    };
-    PI * harmonics.iter().enumerate().map(term).sum::<f64>()
 }

@@ -78,6 +78,11 @@ impl Place {
         }
     }
 
+    /// The range of elements that a law of the whole structure is restricted to (zero-based, last included); none of any other place.
+    pub fn elements(&self) -> Option<[usize; 2]> {
+        if let Self::Whole(range) = self { *range } else { None }
+    }
+
     /// The relative displacements on which a law at this place acts; none for the whole structure and channels.
     pub fn legs(&self) -> Vec<Leg> {
         match self {

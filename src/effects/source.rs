@@ -4,12 +4,10 @@ use super::basis::Basis;
 use super::effect::Effect;
 use super::kind::Kind;
 use super::limits::Limit;
-use super::motion::{Motion, linear_energy};
 use super::place::Place;
 use super::range::Range;
 use crate::math::GREATEST;
 use crate::structure::Structure;
-use faer::c64;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -201,33 +199,6 @@ impl Source {
     /// Whether both are the same law at the same place, whatever their values and states.
     pub fn is_same(&self, other: &Self) -> bool {
         self.effect == other.effect && self.place.is_same(&other.place)
-    }
-
-    /// Energy in J that the source takes out over one period `2 pi / omega` at its parameters, summed over its legs.
-    ///
-    /// `displacement(dof)` gives the complex amplitudes (m) of harmonics 1, 2, ... of a DOF, equally many for all; `samples`
-    /// a period are used by laws without an exact formula. `None` for the whole structure (which needs its matrices) and
-    /// for errors of channels. Energy balance (4.22): the entry `G_rj` for a unit coefficient.
-    pub fn energy(&self, omega: f64, displacement: &dyn Fn(usize) -> Vec<c64>, samples: usize) -> Option<f64> {
-        let law = self.effect.law()?;
-        if !self.effect.dissipates() {
-            return Some(0.0);
-        }
-        let linear = self.effect.is_linear();
-        let of_leg = |leg: super::place::Leg| {
-            let mut relative = displacement(leg.first);
-            if let Some(second) = leg.second {
-                for (d, other) in relative.iter_mut().zip(displacement(second)) {
-                    *d -= other;
-                }
-            }
-            if linear {
-                let z = |w: f64| law.dynamic_stiffness(&self.parameters, w).unwrap_or(c64::new(0.0, 0.0));
-                return linear_energy(omega, &relative, z);
-            }
-            law.energy(&self.parameters, &Motion::new(omega, 0.0, &relative, samples))
-        };
-        Some(self.place.legs().into_iter().map(of_leg).sum())
     }
 
     /// The linear coefficient; 0 for a law that has none.

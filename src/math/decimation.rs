@@ -59,6 +59,7 @@ fn bessel(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::runs::uniform;
     use crate::math::statistics::root_mean_square;
     use std::f64::consts::TAU;
 
@@ -85,11 +86,7 @@ mod tests {
     /// White noise keeps the spectrum of white noise, of a variance that is less by the factor.
     #[test]
     fn white_noise_stays_white() {
-        let mut state = 1_u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut uniform = uniform(1);
         let noise: Vec<f64> = (0..160_000).map(|_| uniform() * 12.0_f64.sqrt()).collect();
         let found = decimated(&noise, 8);
         let neighbours: f64 = found.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / found.len() as f64;

@@ -11,7 +11,7 @@ use super::any_columns::AnyColumns;
 use super::even_columns::EvenColumns;
 use super::slope::Slope;
 use super::sums::Sums;
-use dashpot_numerics::Cholesky;
+use dashpot_numerics::EquilibratedCholesky;
 use faer::Mat;
 use std::ops::Range;
 
@@ -140,23 +140,11 @@ fn product_sum(a: usize, b: usize, cos: &[f64], sin: &[f64]) -> f64 {
     }
 }
 
-/// Inverse of a normal matrix, by Cholesky of it with unit diagonal, and the least share of a column that those before
-/// it do not explain; `None` where columns depend on each other.
+/// Inverse of a normal matrix, and the least share of a column that those before it do not explain; `None` where columns depend on each other.
 fn invert(normal: &Mat<f64>) -> Option<(Mat<f64>, f64)> {
-    let p = normal.nrows();
-    let scale: Vec<f64> = (0..p).map(|i| normal[(i, i)].sqrt()).collect();
-    if scale.iter().any(|s| !(s.is_finite() && *s > 0.0)) {
-        return None;
-    }
-    let unit = Mat::from_fn(p, p, |i, j| normal[(i, j)] / (scale[i] * scale[j]));
-    let factor = Cholesky::new(unit.as_ref())?;
-    let independence = (0..p).map(|i| factor.factor()[(i, i)].powi(2)).fold(1.0, f64::min);
-    if independence < LEAST_INDEPENDENCE {
-        return None;
-    }
-    let inverse = factor.solve(Mat::<f64>::identity(p, p).as_ref());
-    let scaled = Mat::from_fn(p, p, |i, j| 0.5 * (inverse[(i, j)] + inverse[(j, i)]) / (scale[i] * scale[j]));
-    Some((scaled, independence))
+    let factor = EquilibratedCholesky::new(normal.as_ref(), 0.0)?;
+    let independence = factor.independence();
+    (independence >= LEAST_INDEPENDENCE).then(|| (factor.inverse(), independence))
 }
 
 #[cfg(test)]

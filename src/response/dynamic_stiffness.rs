@@ -70,7 +70,7 @@ impl<'a> DynamicStiffness<'a> {
                     }
                 }
                 Kind::Whole(law) => {
-                    let basis = basis_matrix(structure, matrices, &source.place, law.basis())?;
+                    let basis = basis_matrix(structure, &source.place, law.basis())?;
                     terms.push(Term::Whole { law, value: source.parameters[0], basis });
                 }
                 Kind::Channel(_) => {}
@@ -190,19 +190,12 @@ pub(super) fn checked_legs(structure: &Structure, source: &Source) -> Result<Vec
     }
 }
 
-/// Mass or stiffness matrix of the whole structure or of a range of its elements (without lumped masses).
-pub fn basis_matrix(
-    structure: &Structure,
-    matrices: &SystemMatrices,
-    place: &Place,
-    basis: Basis,
-) -> Result<Mat<f64>, DynamicStiffnessError> {
-    let Place::Whole(Some([first, last])) = *place else {
-        return Ok(basis.of_structure(structure, matrices));
-    };
+/// Mass or stiffness matrix of the whole structure or of a range of its elements, which must be there (without lumped masses).
+pub fn basis_matrix(structure: &Structure, place: &Place, basis: Basis) -> Result<Mat<f64>, DynamicStiffnessError> {
+    let range = place.elements();
     let count = structure.elements().len();
-    if first > last || last >= count {
+    if let Some([first, last]) = range.filter(|[first, last]| first > last || *last >= count) {
         return Err(DynamicStiffnessError::Elements { first, last, count });
     }
-    Ok(basis.of_elements(structure, [first, last]))
+    basis.matrix(structure, range).ok_or(DynamicStiffnessError::NoMatrices)
 }

@@ -60,8 +60,7 @@ impl LinearMatrices {
 /// [`DynamicStiffnessError`] for a structure without matrices (whole-structure laws only) or places that do not exist.
 pub fn unit_matrix(structure: &Structure, source: &Source) -> Result<Mat<f64>, DynamicStiffnessError> {
     if let Kind::Whole(law) = source.effect.kind() {
-        let base = structure.matrices().ok_or(DynamicStiffnessError::NoMatrices)?;
-        return basis_matrix(structure, base, &source.place, law.basis());
+        return basis_matrix(structure, &source.place, law.basis());
     }
     let mut sum = Mat::zeros(structure.len(), structure.len());
     for leg in checked_legs(structure, source)? {

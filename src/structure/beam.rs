@@ -185,22 +185,9 @@ fn to_faer(a: &Matrix4<f64>) -> Mat<f64> {
 fn assemble(size: usize, elements: &[Element], matrix: impl Fn(&Element) -> &Mat<f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(size, size);
     for element in elements {
-        element.add_to(matrix(element), &mut sum);
+        element.entries(matrix(element)).for_each(|(i, j, value)| sum[(i, j)] += value);
     }
     sum
-}
-
-impl Element {
-    /// Adds a local matrix to a matrix of the system's size.
-    pub fn add_to(&self, local: &Mat<f64>, sum: &mut Mat<f64>) {
-        for (i, row) in self.dofs.iter().enumerate() {
-            for (j, column) in self.dofs.iter().enumerate() {
-                if let (Some(row), Some(column)) = (*row, *column) {
-                    sum[(row, column)] += local[(i, j)];
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -99,14 +99,10 @@ impl Structure {
                 share.mass.extend(mass);
                 continue;
             }
-            let (local, entries) =
-                if mass { (&element.mass, &mut share.mass) } else { (&element.stiffness, &mut share.stiffness) };
-            for (a, row) in element.dofs.iter().enumerate() {
-                for (b, column) in element.dofs.iter().enumerate() {
-                    if let (Some(row), Some(column)) = (row, column) {
-                        entries.push((*row, *column, local[(a, b)]));
-                    }
-                }
+            if mass {
+                share.mass.extend(element.entries(&element.mass));
+            } else {
+                share.stiffness.extend(element.entries(&element.stiffness));
             }
         }
         share

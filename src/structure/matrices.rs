@@ -21,3 +21,12 @@ pub struct Element {
     /// Local stiffness matrix.
     pub stiffness: Mat<f64>,
 }
+
+impl Element {
+    /// Entries `(row, column, value)` of a local matrix in the rows of the system, those of supported DOFs left out.
+    pub fn entries<'a>(&'a self, local: &'a Mat<f64>) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+        let count = self.dofs.len();
+        let pairs = (0..count).flat_map(move |a| (0..count).map(move |b| (a, b)));
+        pairs.filter_map(|(a, b)| Some((self.dofs[a]?, self.dofs[b]?, local[(a, b)])))
+    }
+}

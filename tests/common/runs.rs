@@ -62,3 +62,12 @@ pub fn with_noise(runs: &[Run], relative: f64, seed: u64) -> Vec<Run> {
     }
     noisy
 }
+
+/// Numbers from -0.5 to 0.5 that have nothing to do with each other, the same for a seed at every call (Knuth's linear congruential generator).
+pub fn uniform(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    }
+}

@@ -1,8 +1,6 @@
-//! Sources: checks and their messages, energy on a structure.
+//! Sources: checks and their messages.
 
-use super::assert_close;
-use dashpot::effects::{Effect, Motion, Place, Source, State};
-use faer::c64;
+use dashpot::effects::{Effect, Place, Source, State};
 
 fn dofs(rows: &[usize]) -> Place {
     Place::Dofs(rows.to_vec())
@@ -77,35 +75,4 @@ fn messages_say_what_is_wrong_and_how_to_mend_it() {
     assert!(Source::named(Effect::Viscous, dofs(&[]), State::Candidate, &[]).is_err());
     assert!(Source::named(Effect::Delay, Place::Channel("acc@7".into()), State::Known, &[("delay", 1e-4)]).is_ok());
     assert!(Source::known(Effect::Gap, dofs(&[1]), &[1.0]).check().is_err());
-}
-
-/// A chain takes out what its pairs take out, on relative motion only.
-#[test]
-fn the_energy_of_a_chain_is_that_of_its_pairs() {
-    let x = |dof: usize| match dof {
-        0 => vec![c64::new(1e-3, 0.0), c64::new(0.0, 2e-4)],
-        1 => vec![c64::new(4e-4, 1e-4), c64::new(0.0, 0.0)],
-        _ => vec![c64::new(4e-4, 1e-4), c64::new(1e-4, 0.0)],
-    };
-    let omega = 80.0;
-    for (effect, p) in [
-        (Effect::Viscous, vec![2.0]),
-        (Effect::Coulomb, vec![2.0]),
-        (Effect::ElasticSlider, vec![1e4, 1.0]),
-        (Effect::Hysteretic, vec![50.0]),
-        (Effect::Maxwell, vec![1e4, 20.0]),
-    ] {
-        let energy_of = |rows: &[usize]| Source::known(effect, dofs(rows), &p).energy(omega, &x, 256).unwrap();
-        assert_close(energy_of(&[0, 1, 2]), energy_of(&[0, 1]) + energy_of(&[1, 2]), 1e-13, effect.name());
-        assert_close(energy_of(&[0, 1]), energy_of(&[1, 0]), 1e-12, effect.name());
-        let relative: Vec<c64> = x(0).iter().zip(x(1)).map(|(a, b)| a - b).collect();
-        let motion = Motion::new(omega, 0.0, &relative, 256);
-        assert_close(energy_of(&[0, 1]), effect.law().unwrap().energy(&p, &motion), 1e-12, effect.name());
-    }
-    // Viscous, by hand: (T/2) sum_h c |h w D_h|^2 = pi w c sum_h h^2 |D_h|^2.
-    let squares = 36e-8 + 1e-8 + 4.0 * 4e-8;
-    let found = Source::known(Effect::Viscous, dofs(&[0, 1]), &[2.0]).energy(omega, &x, 8).unwrap();
-    assert_close(found, std::f64::consts::PI * omega * 2.0 * squares, 1e-13, "viscous by hand");
-    assert_eq!(Source::known(Effect::Gap, dofs(&[0]), &[1e5, 0.0]).energy(omega, &x, 64), Some(0.0));
-    assert_eq!(Source::candidate(Effect::LossFactor, Place::Whole(None)).energy(omega, &x, 64), None);
 }

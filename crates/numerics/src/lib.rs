@@ -4,6 +4,7 @@
 //! which cost two minutes a build. Here they are compiled once, optimised, for the numbers that the program knows.
 
 mod eigen;
+mod equilibrated;
 mod factor;
 mod fourier;
 mod lanes;
@@ -15,6 +16,7 @@ mod sparse;
 mod steps;
 
 pub use eigen::{eigenvalues, generalised_symmetric, real_general, symmetric, symmetric_values};
+pub use equilibrated::EquilibratedCholesky;
 pub use factor::{Cholesky, ComplexLu, RealLu, least_squares, solve_indefinite, thin_qr, triangle};
 pub use fourier::RealTransform;
 pub use lanes::{LANES, dot, sum};

@@ -101,7 +101,7 @@ impl ModalModel {
             z[(k, k)] = c64::new(self.modes.omega[k].powi(2) - omega * omega, 0.0);
         }
         for secant in secants {
-            self.add_secant((structure, omega), secant, &mut z);
+            self.add_secant(structure, omega, secant, &mut z);
         }
         // An undamped resonance hit exactly: the least loss that keeps the answer finite.
         for k in 0..m {
@@ -132,7 +132,7 @@ impl ModalModel {
     }
 
     /// Adds `Phi_m^T D Phi_m` of one source at `omega`, rad/s.
-    fn add_secant(&self, (structure, omega): (&Structure, f64), secant: &Secant, z: &mut Mat<c64>) {
+    fn add_secant(&self, structure: &Structure, omega: f64, secant: &Secant, z: &mut Mat<c64>) {
         let m = self.modes.len();
         match secant {
             Secant::Legs(legs) => {

@@ -24,7 +24,7 @@ use crate::effects::Source;
 use crate::measurement::TransientRun;
 use crate::response::linear_matrices::LinearMatrices;
 use crate::structure::{Structure, StructureKind, SystemMatrices, modes::modes};
-use dashpot_numerics::Cholesky;
+use dashpot_numerics::EquilibratedCholesky;
 use faer::Mat;
 use motion::Motion;
 use std::f64::consts::TAU;
@@ -34,6 +34,8 @@ use work::Works;
 const MOST_ROWS: usize = 100;
 /// Energy, over that of the noise, below which a window says nothing: an amplitude of ten deviations.
 const LEAST_ENERGY: f64 = 100.0;
+/// Share of the variance of a row that is added to it: neighbouring windows may all but repeat each other.
+const RIDGE: f64 = 1e-9;
 
 /// Rows of every record, known `sources` subtracted at their values, `columns` at unit coefficient.
 ///
@@ -198,26 +200,15 @@ impl WindowRows {
 
     /// The rows made independent and of unit variance: `L^-1 G` and `L^-1 e` with `L L^T` their covariance.
     pub fn whitened(&self) -> (Mat<f64>, Vec<f64>) {
-        let n = self.len();
-        let scale: Vec<f64> = (0..n).map(|k| self.covariance[(k, k)].max(f64::MIN_POSITIVE).sqrt()).collect();
-        let correlation = Mat::from_fn(n, n, |k, l| {
-            let value = self.covariance[(k, l)] / (scale[k] * scale[l]);
-            if k == l { value + 1e-9 } else { value }
-        });
-        let unit = Mat::from_fn(n, n, |k, l| f64::from(u8::from(k == l)));
-        let cholesky = Cholesky::new(correlation.as_ref());
-        let factor = cholesky.as_ref().map_or(unit.as_ref(), Cholesky::factor);
-        let columns = self.g.ncols();
-        let mut rows = Mat::from_fn(n, columns + 1, |k, j| {
-            let value = if j < columns { self.g[(k, j)] } else { self.e[k] };
-            value / scale[k]
-        });
-        for j in 0..=columns {
-            for k in 0..n {
-                let before: f64 = (0..k).map(|l| factor[(k, l)] * rows[(l, j)]).sum();
-                rows[(k, j)] = (rows[(k, j)] - before) / factor[(k, k)];
-            }
-        }
-        (Mat::from_fn(n, columns, |k, j| rows[(k, j)]), (0..n).map(|k| rows[(k, columns)]).collect())
+        let (n, columns) = (self.len(), self.g.ncols());
+        let rows = Mat::from_fn(n, columns + 1, |k, j| if j < columns { self.g[(k, j)] } else { self.e[k] });
+        let rows = match EquilibratedCholesky::new(self.covariance.as_ref(), RIDGE) {
+            Some(factor) => factor.whiten(rows),
+            // Rows that are correlated beyond all digits are taken to be independent.
+            None => Mat::from_fn(n, columns + 1, |k, j| {
+                rows[(k, j)] / self.covariance[(k, k)].max(f64::MIN_POSITIVE).sqrt()
+            }),
+        };
+        (rows.subcols(0, columns).to_owned(), rows.col_as_slice(columns).to_vec())
     }
 }

@@ -10,7 +10,8 @@
 
 use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::free_force::ForceFreedom;
-use dashpot_numerics::{Cholesky, dot, thin_qr};
+use crate::diagnosis::updating::marginalisation::marginal;
+use dashpot_numerics::{Cholesky, thin_qr};
 use faer::Mat;
 
 /// The elimination for the free forces of one place.
@@ -62,12 +63,7 @@ impl Eliminator {
             let turned = turn(lower, [rows[at], rows[at + 1]]);
             (rows[at], rows[at + 1]) = (turned[0], turned[1]);
         }
-        rows.resize(rows.len() + self.basis.len(), 0.0);
-        for direction in &self.basis {
-            let share = dot(direction, &rows);
-            rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
-        }
-        rows
+        marginal(&self.basis, rows)
     }
 }
 

@@ -394,3 +394,6 @@ impl Residual for Equation<'_> {
         Ok(Mat::from_fn(at.len(), columns.len(), |i, k| columns[k][i]))
     }
 }
+
+#[cfg(test)]
+mod tests;

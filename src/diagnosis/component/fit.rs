@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::diagnosis::records::variables::{at_variable, scales, slopes, variable};
 use crate::effects::{Parameter, Source};
 use crate::math::statistics::root_mean_square;
-use dashpot_numerics::{Cholesky, dot};
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 
 /// Change of a variable by which derivatives are taken.
@@ -14,6 +14,8 @@ const STEP: f64 = 1e-4;
 const REACH: f64 = 1.0;
 /// Share of what a pure number typically is that is nothing.
 const LEAST_TOLD: f64 = 1e-3;
+/// Share of the diagonal that is added where deviations are asked for.
+const RIDGE: f64 = 1e-12;
 /// Independent data of a record: what a law leaves is alike along each branch of a loop, and from one cycle to the next.
 const PER_RECORD: f64 = 8.0;
 
@@ -128,16 +130,9 @@ pub(super) fn improved(
     let variance = square / (freedom(used.len()) - jacobian.len() as f64).max(1.0);
     let slopes = slopes(&best, &scales);
     let count = jacobian.len();
-    let normal = Mat::from_fn(count, count, |i, j| dot(&jacobian[i], &jacobian[j]));
-    let unit: Vec<f64> = (0..count).map(|k| normal[(k, k)].max(1e-300).sqrt().recip()).collect();
-    let scaled =
-        Mat::from_fn(count, count, |i, j| normal[(i, j)] * unit[i] * unit[j] + if i == j { 1e-12 } else { 0.0 });
-    let identity = Mat::<f64>::identity(count, count);
-    let inverse = Cholesky::new(scaled.as_ref()).map(|c| c.solve(identity.as_ref()));
-    let deviation = |k: usize| {
-        let own = inverse.as_ref().map_or(f64::INFINITY, |m| m[(k, k)].max(0.0).sqrt() * unit[k]);
-        own * variance.sqrt() * slopes[k].abs()
-    };
+    let factor = EquilibratedCholesky::new(normal_matrix(&jacobian).as_ref(), RIDGE);
+    let known = factor.map_or_else(|| vec![f64::INFINITY; count], |factor| factor.deviations());
+    let deviation = |k: usize| known[k] * variance.sqrt() * slopes[k].abs();
     Ok(Fitted { effects: best, deviations: (0..count).map(deviation).collect(), square })
 }
 
@@ -202,13 +197,11 @@ fn derivatives(
     (0..count).map(derivative).collect()
 }
 
+fn normal_matrix(jacobian: &[Vec<f64>]) -> Mat<f64> {
+    Mat::from_fn(jacobian.len(), jacobian.len(), |i, j| dot(&jacobian[i], &jacobian[j]))
+}
+
 fn step(jacobian: &[Vec<f64>], at: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let count = jacobian.len();
-    let normal = Mat::from_fn(count, count, |i, j| dot(&jacobian[i], &jacobian[j]));
-    let unit: Vec<f64> = (0..count).map(|k| normal[(k, k)].max(1e-300).sqrt().recip()).collect();
-    let scaled =
-        Mat::from_fn(count, count, |i, j| normal[(i, j)] * unit[i] * unit[j] + if i == j { damping } else { 0.0 });
-    let rhs = Mat::from_fn(count, 1, |i, _| -dot(&jacobian[i], at) * unit[i]);
-    let x = Cholesky::new(scaled.as_ref())?.solve(rhs.as_ref());
-    Some((0..count).map(|i| x[(i, 0)] * unit[i]).collect())
+    let down: Vec<f64> = jacobian.iter().map(|column| -dot(column, at)).collect();
+    Some(EquilibratedCholesky::new(normal_matrix(jacobian).as_ref(), damping)?.solve(&down))
 }

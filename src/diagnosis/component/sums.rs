@@ -4,7 +4,7 @@ use super::fit::{Fitted, residual, without_repeats};
 use super::search::Search;
 use crate::balance::loops::ComponentError;
 use crate::effects::{Effect, Place, Source, State};
-use dashpot_numerics::{Cholesky, dot};
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 
 /// Rows on which shapes are compared, and shapes a law that go into pairs.
@@ -16,6 +16,8 @@ const BASES: usize = 4;
 const EXCHANGED: usize = 3;
 /// Fits of sums of which one law was exchanged.
 const EXCHANGES: usize = 12;
+/// Share of the diagonal that is added to the products of columns: two shapes may be all but one.
+const RIDGE: f64 = 1e-9;
 
 /// A law in one shape, its force in unit scale over rows of all records.
 pub(super) struct Column {
@@ -185,14 +187,10 @@ fn best_first(mut found: Vec<(f64, Vec<Source>)>) -> Vec<Vec<Source>> {
 /// Scales of columns that fit `measured` best, and by how much its square falls.
 fn scales_of(columns: &[&[f64]], measured: &[f64]) -> Option<(f64, Vec<f64>)> {
     let count = columns.len();
-    let unit: Vec<f64> = columns.iter().map(|c| dot(c, c).sqrt().max(f64::MIN_POSITIVE)).collect();
-    let normal = Mat::from_fn(count, count, |i, j| {
-        dot(columns[i], columns[j]) / (unit[i] * unit[j]) + if i == j { 1e-9 } else { 0.0 }
-    });
-    let against = Mat::from_fn(count, 1, |i, _| dot(columns[i], measured) / unit[i]);
-    let solved = Cholesky::new(normal.as_ref())?.solve(against.as_ref());
-    let gain = (0..count).map(|i| solved[(i, 0)] * against[(i, 0)]).sum();
-    Some((gain, (0..count).map(|i| solved[(i, 0)] / unit[i]).collect()))
+    let normal = Mat::from_fn(count, count, |i, j| dot(columns[i], columns[j]));
+    let against: Vec<f64> = columns.iter().map(|column| dot(column, measured)).collect();
+    let scales = EquilibratedCholesky::new(normal.as_ref(), RIDGE)?.solve(&against);
+    Some((dot(&scales, &against), scales))
 }
 
 /// A law of unit scale at a scale; none where its parameters do not allow it.

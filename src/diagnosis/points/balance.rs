@@ -1,10 +1,9 @@
 //! Energies of a `points` problem as data, and effects fitted to them.
 
-use super::place_motion::PlaceMotions;
+use super::measured_runs::MeasuredRuns;
 use super::uncertainty::{Multiples, Uncertainty};
-use crate::diagnosis::points::energies::{PointsEnergy, displacement, energies};
+use crate::diagnosis::points::energies::{PointsEnergy, energies};
 use crate::diagnosis::residual::data::{DiagnosisError, Problem, RunData};
-use crate::diagnosis::residual::energy_balance::{input, taken};
 use crate::diagnosis::residual::prediction::transfer;
 use crate::diagnosis::result::Added;
 use crate::diagnosis::selection::levenberg_marquardt::variables::Variables;
@@ -33,10 +32,9 @@ const ROUGH: usize = 128;
 pub(crate) struct Balance<'a> {
     pub structure: &'a Structure,
     pub known: Vec<Source>,
-    pub runs: Vec<RunData>,
+    runs: MeasuredRuns<'a>,
     uncertainty: Option<Uncertainty>,
     multiples: Multiples,
-    motions: PlaceMotions,
     /// Input less what is known, J.
     pub missing: Vec<f64>,
     pub input: Vec<f64>,
@@ -73,10 +71,9 @@ impl<'a> Balance<'a> {
             missing: plain.iter().map(|e| e.input - e.taken).collect(),
             input: plain.iter().map(|e| e.input).collect(),
             deviation: deviation.collect(),
-            runs: data.runs,
+            runs: MeasuredRuns::new(problem.structure, data.runs),
             uncertainty: None,
             multiples: Multiples::TRIED[0],
-            motions: PlaceMotions::default(),
         })
     }
 
@@ -91,20 +88,18 @@ impl<'a> Balance<'a> {
     /// The same of records freed of the errors of channels among `effects`, with the effects that are left.
     fn mended(&self, effects: &[Source]) -> (Balance<'a>, Vec<Source>) {
         let (faults, others): (Vec<Source>, Vec<Source>) = effects.iter().cloned().partition(is_fault);
-        let runs: Vec<RunData> = self.runs.iter().map(|run| corrected(run, &faults)).collect();
-        let put_in = |run: &RunData| input(run, &|dof| displacement(run, dof));
-        let input: Vec<f64> = runs.iter().map(put_in).collect();
+        let runs = self.freed_of(&faults);
+        let input = runs.input();
         let scaled = |(d, (new, old)): (&f64, (&f64, &f64))| if *old == 0.0 { *d } else { d * (new / old).abs() };
         let mended = Balance {
             structure: self.structure,
             known: self.known.clone(),
-            missing: self.left(&faults),
+            missing: self.left_of_known(&runs),
             deviation: self.deviation.iter().zip(input.iter().zip(&self.input)).map(scaled).collect(),
             input,
             runs,
             uncertainty: None,
             multiples: self.multiples,
-            motions: PlaceMotions::default(),
         };
         (mended.with_uncertainty(self.multiples), others)
     }
@@ -112,7 +107,8 @@ impl<'a> Balance<'a> {
     /// Sizes of known sources, gains and phases of channels with the derivative of the energy that is left by each, over its
     /// deviation.
     fn uncertain(&self) -> Vec<(UpdatingParameter, Vec<f64>)> {
-        let known = |(k, source)| (UpdatingParameter::Known(k), self.over_deviations(&self.energies(source, SAMPLES)));
+        let known =
+            |(k, source)| (UpdatingParameter::Known(k), self.over_deviations(&self.runs.energies(source, SAMPLES)));
         let mut uncertain: Vec<_> = self.known.iter().enumerate().map(known).collect();
         let omega = self.mean_omega();
         for name in self.channel_names() {
@@ -156,13 +152,13 @@ impl<'a> Balance<'a> {
 
     /// Arithmetic mean of the circular frequencies, rad/s.
     pub(crate) fn mean_omega(&self) -> f64 {
-        self.runs.iter().map(|r| r.omega).sum::<f64>() / self.runs.len().max(1) as f64
+        self.runs.list.iter().map(|r| r.omega).sum::<f64>() / self.runs.list.len().max(1) as f64
     }
 
     /// Names of all channels, each once.
     pub(crate) fn channel_names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
-        for channel in self.runs.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
+        for channel in self.runs.list.iter().flat_map(|r| r.forces.iter().chain(&r.responses)) {
             if !names.contains(&channel.name) {
                 names.push(channel.name.clone());
             }
@@ -172,23 +168,6 @@ impl<'a> Balance<'a> {
 
     pub(crate) fn weighted(&self) -> Vec<f64> {
         self.whitened(&self.missing)
-    }
-
-    /// Energy that a source takes out in each run, J.
-    fn energies(&self, source: &Source, samples: usize) -> Vec<f64> {
-        let memory = source.effect.law().filter(|law| source.effect.dissipates() && !law.is_linear());
-        if let Some(law) = memory {
-            let legs = source.place.legs().into_iter().map(|leg| self.motions.of(leg, samples, &self.runs));
-            let legs: Vec<_> = legs.collect();
-            let energy = |r: usize| legs.iter().map(|motions| law.energy(&source.parameters, &motions[r])).sum();
-            return (0..self.runs.len()).map(energy).collect();
-        }
-        self.runs.iter().map(|run| self.energy(source, run, samples)).collect()
-    }
-
-    /// Energy that a source takes out in one run, J.
-    fn energy(&self, source: &Source, run: &RunData, samples: usize) -> f64 {
-        taken(self.structure, source, run.omega, &|dof| displacement(run, dof), samples)
     }
 
     /// The shapes of a grid of every law at every place with the energies that they take out, J.
@@ -201,7 +180,7 @@ impl<'a> Balance<'a> {
             for effect in Effect::ALL.into_iter().filter(|e| e.law().is_some() && e.dissipates()) {
                 for parameters in effect.shapes(&range) {
                     let source = Source { effect, place: Place::Dofs(dofs.clone()), state: State::Known, parameters };
-                    let energies = self.energies(&source, ROUGH);
+                    let energies = self.runs.energies(&source, ROUGH);
                     if energies.iter().any(|e| *e > 0.0) {
                         shapes.push((source, energies));
                     }
@@ -223,26 +202,35 @@ impl<'a> Balance<'a> {
     /// Range of the motion at a place; none where nothing moves.
     fn range(&self, dofs: &[usize]) -> Option<Range> {
         let leg = Leg { first: dofs[0], second: dofs.get(1).copied() };
-        let range = Range::of(&self.motions.of(leg, SAMPLES, &self.runs));
+        let range = Range::of(&self.runs.sampled(leg, SAMPLES));
         (range.displacement > 0.0).then_some(range)
     }
 
     /// Energy that is left over in each run with `effects`. Errors of channels are taken out of the record first.
     fn left(&self, effects: &[Source]) -> Vec<f64> {
-        let on_structure = || effects.iter().filter(|e| e.effect.law().is_some());
-        if !effects.iter().any(is_fault) {
-            let mut left = self.missing.clone();
-            for effect in on_structure() {
-                left.iter_mut().zip(self.energies(effect, SAMPLES)).for_each(|(l, e)| *l -= e);
-            }
-            return left;
-        }
-        let of_run = |run: &RunData| {
-            let run = corrected(run, effects);
-            let lost = |source: &Source| self.energy(source, &run, SAMPLES);
-            input(&run, &|dof| displacement(&run, dof)) - self.known.iter().chain(on_structure()).map(lost).sum::<f64>()
+        let faulty = effects.iter().any(is_fault).then(|| self.freed_of(effects));
+        let (runs, mut left) = match &faulty {
+            Some(runs) => (runs, self.left_of_known(runs)),
+            None => (&self.runs, self.missing.clone()),
         };
-        self.runs.iter().map(of_run).collect()
+        for effect in effects.iter().filter(|e| e.effect.law().is_some()) {
+            left.iter_mut().zip(runs.energies(effect, SAMPLES)).for_each(|(l, e)| *l -= e);
+        }
+        left
+    }
+
+    /// Energy that known sources leave over in each of `runs`, J.
+    fn left_of_known(&self, runs: &MeasuredRuns) -> Vec<f64> {
+        let mut left = runs.input();
+        for source in &self.known {
+            left.iter_mut().zip(runs.energies(source, SAMPLES)).for_each(|(l, e)| *l -= e);
+        }
+        left
+    }
+
+    /// The runs freed of the errors of channels among `effects`.
+    fn freed_of(&self, effects: &[Source]) -> MeasuredRuns<'a> {
+        MeasuredRuns::new(self.structure, self.runs.list.iter().map(|run| corrected(run, effects)).collect())
     }
 
     /// Errors of every channel, from a small one.
@@ -266,7 +254,7 @@ impl<'a> Balance<'a> {
         let mut left = self.left(effects);
         for correction in self.corrections(effects) {
             let UpdatingParameter::Known(k) = correction.parameter else { continue };
-            let taken = self.energies(&self.known[k], SAMPLES);
+            let taken = self.runs.energies(&self.known[k], SAMPLES);
             left.iter_mut().zip(taken).for_each(|(l, e)| *l -= (correction.factor - 1.0) * e);
         }
         left.iter().zip(&self.input).map(|(l, e)| if *e == 0.0 { 1.0 } else { (l / e).abs() }).collect()
@@ -329,7 +317,7 @@ impl Residual for OnEnergy<'_> {
         let before: Vec<Vec<f64>> = if faulty {
             Vec::new()
         } else {
-            effects.iter().map(|effect| self.balance.energies(effect, SAMPLES)).collect()
+            effects.iter().map(|effect| self.balance.runs.energies(effect, SAMPLES)).collect()
         };
         let mut jacobian = Mat::zeros(at.len(), theta.len());
         for (k, owner) in owners.enumerate() {
@@ -340,7 +328,7 @@ impl Residual for OnEnergy<'_> {
                 after.iter().zip(at).map(|(a, b)| a - b).collect()
             } else {
                 // Energies add up: those of the other effects stay.
-                let after = self.balance.energies(&self.variables.effects(&moved)[owner], SAMPLES);
+                let after = self.balance.runs.energies(&self.variables.effects(&moved)[owner], SAMPLES);
                 self.balance.whitened(&before[owner].iter().zip(&after).map(|(b, a)| b - a).collect::<Vec<_>>())
             };
             change.iter().enumerate().for_each(|(r, c)| jacobian[(r, k)] = c / DIFFERENCE);

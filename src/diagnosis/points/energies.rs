@@ -1,5 +1,5 @@
-//! `points` structures: no response can be predicted, so the model is judged by the energy of each run, which is that of the
-//! rows of identification ([`crate::balance`]).
+//! Energies of runs by their measured motion alone, which are those of the rows of identification ([`crate::balance`]). Of `points`
+//! structures no response can be predicted: the model is judged by them.
 //!
 //! ```text
 //! e_r = input energy of run r,     m_r = energy taken out by the sources,     error |e_r - m_r| / |e_r|
@@ -46,18 +46,30 @@ pub(crate) fn energies(problem: &Problem, effects: &[Source]) -> Result<Vec<Poin
     Data::new(problem)?;
     let data = Data::every(problem)?;
     let sources: Vec<Source> = problem.known().into_iter().chain(effects.iter().cloned()).collect();
-    Ok(data.runs.iter().map(|run| of_run(problem, run.index, &sources)).collect())
+    let nothing = |index| PointsEnergy { index, input: 0.0, taken: 0.0, deviation: 0.0 };
+    let of_run = |run: &RunData| {
+        let motion = motion(problem.structure, &problem.runs[run.index]);
+        motion.map_or(nothing(run.index), |motion| at_motion(problem.structure, run.index, &motion, &sources))
+    };
+    Ok(data.runs.iter().map(of_run).collect())
 }
 
-/// The energies of run `index`; nothing is put in where no sensor sees the drive point or no force acts.
-fn of_run(problem: &Problem, index: usize, sources: &[Source]) -> PointsEnergy {
-    let structure = problem.structure;
-    let Some((measured, expanded)) = motion(structure, &problem.runs[index]) else {
-        return PointsEnergy { index, input: 0.0, taken: 0.0, deviation: 0.0 };
-    };
-    let input = input_energy(structure, &measured, &expanded).unwrap_or(0.0);
-    let taken = sources.iter().map(|source| action::energy(source, structure, expanded.field(&measured))).sum();
-    let noisy = measured.noisy.then(|| residual_deviation(structure, &measured, &expanded, sources));
+/// The energies of run `index` by the measured motion alone, of any structure; none where a DOF has no sensor.
+pub(crate) fn where_all_is_measured(problem: &Problem, index: usize, sources: &[Source]) -> Option<PointsEnergy> {
+    let motion = motion(problem.structure, &problem.runs[index]).filter(|(_, x)| x.known.iter().all(|known| *known))?;
+    Some(at_motion(problem.structure, index, &motion, sources))
+}
+
+/// The energies of run `index`; nothing is put in where no sensor sees the drive point.
+fn at_motion(
+    structure: &Structure,
+    index: usize,
+    (measured, expanded): &(Measured, Expanded),
+    sources: &[Source],
+) -> PointsEnergy {
+    let input = input_energy(structure, measured, expanded).unwrap_or(0.0);
+    let taken = sources.iter().map(|source| action::energy(source, structure, expanded.field(measured))).sum();
+    let noisy = measured.noisy.then(|| residual_deviation(structure, measured, expanded, sources));
     PointsEnergy { index, input, taken, deviation: noisy.unwrap_or(0.0) }
 }
 

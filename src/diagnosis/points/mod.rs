@@ -4,6 +4,6 @@ pub(crate) mod balance;
 mod conclusion;
 pub(crate) mod energies;
 mod evidence;
-mod place_motion;
+mod measured_runs;
 pub(crate) mod search;
 mod uncertainty;

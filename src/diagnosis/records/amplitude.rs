@@ -13,7 +13,7 @@ use crate::math::least_squares::LeastSquares;
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::mean;
 use crate::math::zero_phase::{Extension, filtered};
-use dashpot_numerics::{Cholesky, dot};
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 use std::f64::consts::TAU;
 
@@ -151,18 +151,18 @@ fn fit(window: &[f64], step: f64, omega: f64, time_s: f64) -> Option<AmplitudePo
     let mut last = f64::INFINITY;
     for _ in 0..ITERATIONS {
         let mut columns = linear_columns(&time, &shape);
-        let x = NormalEquations::new(&columns)?.solve(&columns, window);
+        let x = normal_equations(&columns)?.solve(&products(&columns, window));
         let left: Vec<f64> =
             (0..window.len()).map(|n| window[n] - (0..LINEAR).map(|j| columns[j][n] * x[j]).sum::<f64>()).collect();
         let square = dot(&left, &left);
         let derivatives = derivatives(&time, &columns, [x[0], x[1]]);
         columns.extend(derivatives);
-        let equations = NormalEquations::new(&columns)?;
-        let change = equations.solve(&columns, &left);
+        let equations = normal_equations(&columns)?;
+        let change = equations.solve(&products(&columns, &left));
         let small = (LINEAR..COLUMNS).all(|j| change[j].abs() < 1e-9);
         if small || (square <= last && last - square < 1e-14 * square) {
-            let variance = square / (window.len() - COLUMNS) as f64;
-            let d = equations.standard_deviations(variance);
+            let noise = (square / (window.len() - COLUMNS) as f64).sqrt();
+            let d: Vec<f64> = equations.deviations().into_iter().map(|d| d * noise).collect();
             let (rate, w) = (shape[0] / half, shape[1] / half);
             let zeta = rate / w;
             let [by_rate, by_w] = [d[LINEAR] / half, d[LINEAR + 1] / half];
@@ -210,29 +210,13 @@ fn derivatives(time: &[f64], columns: &[Vec<f64>], [a, b]: [f64; 2]) -> [Vec<f64
     ]
 }
 
-/// Normal equations of columns, scaled to unit length: sinusoids over some periods are far from alike.
-struct NormalEquations {
-    factor: Cholesky,
-    scale: Vec<f64>,
+/// Normal equations of columns: sinusoids over some periods are far from alike.
+fn normal_equations(columns: &[Vec<f64>]) -> Option<EquilibratedCholesky> {
+    let matrix = Mat::from_fn(columns.len(), columns.len(), |i, j| dot(&columns[i], &columns[j]));
+    EquilibratedCholesky::new(matrix.as_ref(), 0.0)
 }
 
-impl NormalEquations {
-    fn new(columns: &[Vec<f64>]) -> Option<Self> {
-        let scale: Vec<f64> = columns.iter().map(|c| dot(c, c).max(f64::MIN_POSITIVE).sqrt().recip()).collect();
-        let matrix =
-            Mat::from_fn(columns.len(), columns.len(), |i, j| scale[i] * scale[j] * dot(&columns[i], &columns[j]));
-        Some(Self { factor: Cholesky::new(matrix.as_ref())?, scale })
-    }
-
-    fn solve(&self, columns: &[Vec<f64>], signal: &[f64]) -> Vec<f64> {
-        let right = Mat::from_fn(self.scale.len(), 1, |i, _| self.scale[i] * dot(&columns[i], signal));
-        let x = self.factor.solve(right.as_ref());
-        self.scale.iter().enumerate().map(|(i, s)| s * x[(i, 0)]).collect()
-    }
-
-    fn standard_deviations(&self, variance: f64) -> Vec<f64> {
-        let n = self.scale.len();
-        let inverse = self.factor.solve(Mat::<f64>::identity(n, n).as_ref());
-        self.scale.iter().enumerate().map(|(i, s)| s * (variance * inverse[(i, i)].max(0.0)).sqrt()).collect()
-    }
+/// Products of columns with a signal.
+fn products(columns: &[Vec<f64>], signal: &[f64]) -> Vec<f64> {
+    columns.iter().map(|column| dot(column, signal)).collect()
 }

@@ -9,8 +9,8 @@ use crate::effects::Source;
 
 /// Rounds and steps of a fit with one effect less, or a plainer one.
 const PRUNING: [usize; 2] = [2, 3];
-/// The same of one on whole records without its last effect.
-const WITHOUT: [usize; 2] = [4, 4];
+/// The same of one on whole records without its last effect, or without any.
+pub(super) const WITHOUT: [usize; 2] = [4, 4];
 
 impl Search<'_> {
     /// A fit without those of its earlier effects that the last one has made needless, the others by the plainest law that does.

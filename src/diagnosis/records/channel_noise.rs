@@ -98,15 +98,12 @@ fn power(x: &[c64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::runs::uniform;
 
     /// Noise of about unit deviation.
     fn noise(seed: u64, count: usize) -> Vec<f64> {
-        let mut state = seed;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..count).map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0).collect()
+        let mut uniform = uniform(seed);
+        (0..count).map(|_| (0..12).map(|_| uniform()).sum()).collect()
     }
 
     /// Two forces that fill the band to its end, and a motion of short memory: its noise of a thirtieth is told within some per cent, where

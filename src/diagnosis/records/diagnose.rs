@@ -8,6 +8,7 @@
 //!    samples over which it stays alike, so that many samples of one error do not count as many.
 //! 4. An effect is kept if it also predicts the last part of each record from a fit on the rest.
 
+use super::backward_elimination::WITHOUT;
 use super::channel_delays;
 use super::compare::{noise_floor, started};
 use super::data::{RecordError, Records};
@@ -51,7 +52,6 @@ const SURE: f64 = 3.0;
 const VANISHED: f64 = 2.0;
 /// Squared residual without an effect over that with it from which on it is something, however much is left: three quarters of the error.
 const MUCH: f64 = 16.0;
-const WITHOUT: [usize; 2] = [4, 4];
 
 /// Finds what the model of `records` lacks; effects `excluded` are not suggested. Delays of channels that it shows are taken out, and the
 /// search is made again.

@@ -13,8 +13,7 @@ use super::fitted::FittedRecords;
 use super::normal_equations::{Equations, Left, Normal, solve};
 use super::problem::FitProblem;
 use super::variables::{scales, slopes};
-use dashpot_numerics::Cholesky;
-use faer::Mat;
+use dashpot_numerics::EquilibratedCholesky;
 use std::sync::Arc;
 
 /// Dampings that are tried for a step, and for one whose derivatives are held: where three fail new ones are better.
@@ -30,6 +29,8 @@ const LITTLE: f64 = 2.0;
 /// Share of the weight of the priors below which what a fit leaves asks for another round with less of it: they held the model to what is
 /// stated more strongly than what is left demands.
 const HELD: f64 = 0.5;
+/// Share of the diagonal that is added where deviations are asked for: what the data do not tell is very uncertain.
+const RIDGE: f64 = 1e-11;
 
 /// What the priors weigh: what the start leaves demands it, so that many samples of one error do not bend what is known.
 fn unit_of(start: &FittedRecords) -> f64 {
@@ -210,21 +211,14 @@ impl FitProblem<'_> {
 
     /// Adds deviations and what is left.
     fn finish(&self, mut best: FittedRecords, scales: &[Vec<f64>], normal: Normal) -> FittedRecords {
-        let size = normal.gradient.len();
         let shared = self.shared(&best);
-        let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
-        let unit = Mat::from_fn(size, size, |i, j| {
-            let ridge = if i == j { 1e-11 } else { 0.0 };
-            normal.matrix[(i, j)] * scaling[i] * scaling[j] + ridge
-        });
-        let identity = Mat::<f64>::identity(size, size);
         // Where the equations have no solution the data tell no parameter: derivatives that run away, as those of friction that falls
         // with speed may over a long record.
-        let inverse = Cholesky::new(unit.as_ref()).map(|factored| factored.solve(identity.as_ref()));
-        let variance = |k: usize| inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(k, k)].max(0.0));
+        let factor = EquilibratedCholesky::new(normal.matrix.as_ref(), RIDGE);
+        let deviations = factor.map_or_else(|| vec![f64::INFINITY; shared], |factor| factor.deviations());
         let slopes = slopes(&best.effects, scales);
         let deviation = |k: usize| {
-            let deviation = variance(k).sqrt() * scaling[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
+            let deviation = deviations[k] * slopes.get(k).copied().unwrap_or(1.0).abs();
             if deviation.is_nan() { f64::INFINITY } else { deviation }
         };
         best.deviations = (0..shared).map(deviation).collect();

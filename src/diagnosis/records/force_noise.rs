@@ -121,16 +121,13 @@ fn scatter(record: &RecordData, variances: &[Vec<f64>], lengths: &[f64]) -> f64 
 #[cfg(test)]
 mod tests {
     use super::{correlated, of_force};
+    use crate::common::runs::uniform;
     use std::f64::consts::{PI, TAU};
 
     /// Uniform numbers of unit variance.
     fn noise(count: usize) -> Vec<f64> {
-        let mut state = 1_u64;
-        let next = |_: usize| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        };
-        (0..count).map(next).collect()
+        let mut uniform = uniform(1);
+        (0..count).map(|_| uniform() * 12.0_f64.sqrt()).collect()
     }
 
     /// A short blow fills the band up to Nyquist's frequency: its noise is that of the time in which it rests. A slow sine never

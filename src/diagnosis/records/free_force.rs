@@ -11,10 +11,10 @@
 //! (expectation and maximisation: Dempster, Laird and Rubin 1977): where the sensors do not see it, nothing is drawn.
 
 use super::data::{RecordData, Records};
-use super::localisation::{Expansion, Line, Spectra};
+use super::localisation::{Expansion, Line, RIDGE, Spectra};
 use crate::effects::Leg;
 use crate::measurement::Quantity;
-use dashpot_numerics::{Cholesky, RealTransform};
+use dashpot_numerics::{EquilibratedCholesky, RealTransform};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -118,7 +118,7 @@ impl AtPlace<'_> {
     /// Differences between the ends of the record that are likeliest, forces of all sizes being likely as they are.
     fn ends(&self, variances: &[f64]) -> Option<Vec<f64>> {
         let count = self.unknowns;
-        let (mut matrix, mut against) = (Mat::<f64>::zeros(count, count), Mat::<f64>::zeros(count, 1));
+        let (mut matrix, mut against) = (Mat::<f64>::zeros(count, count), vec![0.0; count]);
         for (k, line) in self.lines.iter().enumerate() {
             let beside = |x: &[c64]| -> Vec<c64> {
                 let a = &self.under[k];
@@ -128,7 +128,7 @@ impl AtPlace<'_> {
             let inner = |a: &[c64], b: &[c64]| a.iter().zip(b).map(|(a, b)| (a.conj() * b).re).sum::<f64>();
             let measured = beside(&line.measured);
             for (i, own) in line.ends.iter().enumerate() {
-                against[(i, 0)] += inner(own, &measured);
+                against[i] += inner(own, &measured);
                 let own = beside(own);
                 for (j, other) in line.ends.iter().enumerate().take(i + 1) {
                     let product = inner(&own, other);
@@ -139,14 +139,7 @@ impl AtPlace<'_> {
                 }
             }
         }
-        let scale: Vec<f64> = (0..count).map(|i| matrix[(i, i)].max(1e-300).sqrt().recip()).collect();
-        let unit = Mat::from_fn(count, count, |i, j| {
-            let ridge = if i == j { 1e-10 } else { 0.0 };
-            matrix[(i, j)] * scale[i] * scale[j] + ridge
-        });
-        let scaled = Mat::from_fn(count, 1, |i, _| against[(i, 0)] * scale[i]);
-        let x = Cholesky::new(unit.as_ref())?.solve(scaled.as_ref());
-        Some((0..count).map(|i| x[(i, 0)] * scale[i]).collect())
+        Some(EquilibratedCholesky::new(matrix.as_ref(), RIDGE)?.solve(&against))
     }
 
     /// Displacement, velocity and acceleration along the place.

@@ -12,7 +12,7 @@ use super::data::{RecordData, Records};
 use super::spectrum::fourier_integral;
 use crate::effects::{Constant, Kind, Leg, Place, Source};
 use crate::response::linear_matrices::unit_matrix;
-use dashpot_numerics::{Cholesky, ComplexLu, product, transposed_product};
+use dashpot_numerics::{ComplexLu, EquilibratedCholesky, dot, product, transposed_product};
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -24,6 +24,8 @@ const MOST_LINES: usize = 250;
 const HIGHEST: f64 = 0.15;
 /// Share of a response by which the model may be wrong beside the noise.
 const MODEL_SHARE: f64 = 2e-3;
+/// Share of the diagonal that is added to the normal equations of the differences between the ends, of which a record need not tell all.
+pub(super) const RIDGE: f64 = 1e-10;
 
 /// A place with what is left when a free force acts there.
 #[derive(Debug, Clone, PartialEq)]
@@ -232,7 +234,7 @@ fn line_noise(record: &RecordData, c: usize) -> f64 {
 /// Squared residual of the lines of a record with a free force along `pattern`, and its degrees of freedom.
 fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
     let mut matrix = Mat::<f64>::zeros(unknowns, unknowns);
-    let mut rhs = Mat::<f64>::zeros(unknowns, 1);
+    let mut rhs = vec![0.0; unknowns];
     let (mut square, mut freedom) = (0.0, -(unknowns as f64));
     for line in lines {
         let count = line.measured.len();
@@ -250,7 +252,7 @@ fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
         let y = projected(&line.measured);
         let ends: Vec<Vec<c64>> = line.ends.iter().map(|e| projected(e)).collect();
         for i in 0..unknowns {
-            rhs[(i, 0)] += inner(&ends[i], &y);
+            rhs[i] += inner(&ends[i], &y);
             for j in 0..unknowns {
                 matrix[(i, j)] += inner(&ends[i], &ends[j]);
             }
@@ -258,15 +260,9 @@ fn misfit(lines: &[Line], pattern: &[f64], unknowns: usize) -> [f64; 2] {
         square += inner(&y, &y);
         freedom += 2.0 * (count as f64 - 1.0);
     }
-    let scale: Vec<f64> = (0..unknowns).map(|i| matrix[(i, i)].max(1e-300).sqrt().recip()).collect();
-    let unit = Mat::from_fn(unknowns, unknowns, |i, j| {
-        let ridge = if i == j { 1e-10 } else { 0.0 };
-        matrix[(i, j)] * scale[i] * scale[j] + ridge
-    });
-    let scaled = Mat::from_fn(unknowns, 1, |i, _| rhs[(i, 0)] * scale[i]);
-    let explained = Cholesky::new(unit.as_ref()).map_or(0.0, |llt| {
-        let x = llt.solve(scaled.as_ref());
-        (0..unknowns).map(|i| x[(i, 0)] * scaled[(i, 0)]).sum()
-    });
+    let explained = EquilibratedCholesky::new(matrix.as_ref(), RIDGE).map_or(0.0, |n| dot(&n.solve(&rhs), &rhs));
     [(square - explained).max(0.0), freedom]
 }
+
+#[cfg(test)]
+mod tests;

@@ -84,7 +84,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models::chain;
-    use crate::common::runs::decay;
+    use crate::common::runs::{decay, uniform};
     use crate::diagnosis::records::data::Records;
 
     /// A fast mode that dies out beside a slow one: steps of 4 samples resolve the motion from where the fast velocity is a twentieth.
@@ -111,12 +111,8 @@ mod tests {
     /// Acceleration noise of one standard deviation has that velocity.
     #[test]
     fn noise_has_the_velocity_of_its_spectrum() {
-        let mut state = 1_u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            12.0_f64.sqrt() * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
-        };
-        let noise: Vec<f64> = (0..20_000).map(|_| uniform()).collect();
+        let mut uniform = uniform(1);
+        let noise: Vec<f64> = (0..20_000).map(|_| 12.0_f64.sqrt() * uniform()).collect();
         for order in 0..3 {
             let v = velocity(&noise, 1e-3, order, 20.0);
             let variance = v.iter().map(|v| v * v).sum::<f64>() / v.len() as f64;

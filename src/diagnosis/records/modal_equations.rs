@@ -2,12 +2,14 @@
 //! the covariance that the noise of the channels leaves there and by a share of the elastic force by which any model is wrong.
 
 use crate::balance::windows::motion::Motion;
-use dashpot_numerics::{Cholesky, RealTransform, dot};
+use dashpot_numerics::{EquilibratedCholesky, RealTransform, dot};
 use faer::{Mat, c64};
 use std::f64::consts::{PI, TAU};
 
 /// Share of the elastic force by which a model is taken to be wrong on a line.
 const MODEL_SHARE: f64 = 3e-3;
+/// Share of the diagonal that is added to the covariance of the modes on a line: few sensors make it singular.
+const RIDGE: f64 = 1e-9;
 /// Lines of a taper's flank, and of the width within which a resonance is not told from its neighbours.
 const FLANK: f64 = 2.0;
 /// Most lines of a record, those of greatest motion.
@@ -163,20 +165,7 @@ impl ModalEquations {
             let model = if r == s { (MODEL_SHARE * elastic[r]).powi(2) * (1.0 + 1e-9) } else { 0.0 };
             stiff(r) * stiff(s) * noise(r, s) + model
         });
-        let scale: Vec<f64> = (0..count).map(|r| covariance[(r, r)].max(f64::MIN_POSITIVE).sqrt()).collect();
-        let unit = Mat::from_fn(count, count, |r, s| {
-            covariance[(r, s)] / (scale[r] * scale[s]) + if r == s { 1e-9 } else { 0.0 }
-        });
-        let cholesky = Cholesky::new(unit.as_ref())?;
-        let factor = cholesky.factor();
-        let mut inverse = Mat::<f64>::zeros(count, count);
-        for j in 0..count {
-            for i in j..count {
-                let rest: f64 = (j..i).map(|k| factor[(i, k)] * inverse[(k, j)]).sum();
-                inverse[(i, j)] = (f64::from(u8::from(i == j)) - rest) / factor[(i, i)];
-            }
-        }
-        Some(Mat::from_fn(count, count, |i, j| inverse[(i, j)] / scale[j]))
+        Some(EquilibratedCholesky::new(covariance.as_ref(), RIDGE)?.whiten(Mat::identity(count, count)))
     }
 }
 

@@ -7,7 +7,7 @@ use super::fitted::FittedRecords;
 use super::problem::FitProblem;
 use super::steps::Steps;
 use crate::response::transient::{TransientError, TransientParameter};
-use dashpot_numerics::{Cholesky, dot};
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 
 /// Normal equations at a point.
@@ -324,6 +324,9 @@ impl Normal {
     }
 }
 
+/// Share of the greatest entry of the diagonal below which an entry is rounding.
+const UNKNOWN: f64 = 1e-20;
+
 /// A step of Levenberg and Marquardt.
 pub(super) struct DampedStep {
     /// Change of every variable.
@@ -332,20 +335,12 @@ pub(super) struct DampedStep {
     pub expected_gain: f64,
 }
 
-/// Step of Levenberg and Marquardt in scaled variables, `(H + lambda D) x = g`; by it `g x + lambda x D x` is taken away to second order.
+/// Step of Levenberg and Marquardt, `(H + lambda D) x = g` with `D` the diagonal of `H`; by it `g x + lambda x D x` is taken away to second
+/// order.
 pub(super) fn solve(normal: &Normal, damping: f64) -> Option<DampedStep> {
-    let size = normal.gradient.len();
-    let greatest = (0..size).map(|k| normal.matrix[(k, k)]).fold(0.0, f64::max);
-    let scale: Vec<f64> =
-        (0..size).map(|k| normal.matrix[(k, k)].max(1e-20 * greatest).max(1e-300).sqrt().recip()).collect();
-    let matrix = Mat::from_fn(size, size, |i, j| {
-        let extra = if i == j { damping } else { 0.0 };
-        normal.matrix[(i, j)] * scale[i] * scale[j] + extra
-    });
-    let rhs = Mat::from_fn(size, 1, |i, _| normal.gradient[i] * scale[i]);
-    let x = Cholesky::new(matrix.as_ref())?.solve(rhs.as_ref());
-    let expected_gain = (0..size).map(|i| x[(i, 0)] * (rhs[(i, 0)] + damping * x[(i, 0)])).sum();
-    let change: Vec<f64> = (0..size).map(|i| x[(i, 0)] * scale[i]).collect();
+    let damped = EquilibratedCholesky::bounded(normal.matrix.as_ref(), damping, UNKNOWN)?;
+    let change = damped.solve(&normal.gradient);
+    let expected_gain = dot(&change, &normal.gradient) + damping * damped.scaled_square(&change);
     change.iter().all(|x| x.is_finite()).then_some(DampedStep { change, expected_gain })
 }
 

@@ -15,7 +15,7 @@ use super::problem::{FitProblem, Free, modes};
 use super::search::Search;
 use super::steps::Steps;
 use super::variables::scales;
-use dashpot_numerics::{Cholesky, dot};
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 
 /// Share of the diagonal that is added where equations would have no solution.
@@ -78,10 +78,11 @@ impl<'a> Restrictions<'a> {
             matrix[(k, k)] += weight;
             gradient[k] -= weight * value;
         }
-        let (more, variance) = least(&matrix, &gradient, &moving, &mut change).filter(|(more, _)| more.is_finite())?;
+        let (more, deviations) =
+            least(&matrix, &gradient, &moving, &mut change).filter(|(more, _)| more.is_finite())?;
         let count = free.iter().filter(|free| **free).count();
         let cost = (fit.chi_square + prior + more) / unit + count as f64 * information(fit, unit);
-        let size = |k: usize| (values[k] + change[first + k], (unit * variance[first + k]).sqrt());
+        let size = |k: usize| (values[k] + change[first + k], unit.sqrt() * deviations[first + k]);
         let last = 1 + self.search.whole().sizes() + modes(self.search.whole());
         Some(Restricted { cost, sizes: (1..last).map(size).collect() })
     }
@@ -94,15 +95,9 @@ impl<'a> Restrictions<'a> {
             let first = problem.shared(self.fit) + r * local;
             let shift = problem.shift_variable(self.fit, r);
             let others: Vec<usize> = (first..first + local).filter(|k| *k != shift).collect();
-            let scaling: Vec<f64> = others.iter().map(|&k| matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
-            let unit = Mat::from_fn(others.len(), others.len(), |i, j| {
-                let ridge = if i == j { RIDGE } else { 0.0 };
-                matrix[(others[i], others[j])] * scaling[i] * scaling[j] + ridge
-            });
-            let beside = Mat::from_fn(others.len(), 1, |i, _| matrix[(others[i], shift)] * scaling[i]);
-            let solved = Cholesky::new(unit.as_ref()).map(|factored| factored.solve(beside.as_ref()));
-            let taken = |solved: &Mat<f64>| (0..others.len()).map(|i| beside[(i, 0)] * solved[(i, 0)]).sum::<f64>();
-            (matrix[(shift, shift)] - solved.as_ref().map_or(0.0, taken)).max(0.0)
+            let beside: Vec<f64> = others.iter().map(|&k| matrix[(k, shift)]).collect();
+            let taken = |factor: EquilibratedCholesky| dot(&beside, &factor.solve(&beside));
+            (matrix[(shift, shift)] - factor_of(matrix, &others).map_or(0.0, taken)).max(0.0)
         };
         (0..self.search.whole().list.len()).map(information_of_shift).collect()
     }
@@ -121,24 +116,25 @@ fn problem<'a>(search: &'a Search<'_>, corrections: Vec<bool>) -> FitProblem<'a>
     FitProblem { records: search.whole(), free, share: 1.0, control: search.control }
 }
 
-/// The least of `-2 g^T d + d^T N d` where only what is `moving` differs from `change`, which becomes `d`; and the variance of all of it.
+/// The least of `-2 g^T d + d^T N d` where only what is `moving` differs from `change`, which becomes `d`; and the deviations
+/// of all of it.
 fn least(matrix: &Mat<f64>, gradient: &[f64], moving: &[usize], change: &mut [f64]) -> Option<(f64, Vec<f64>)> {
-    let (size, count) = (change.len(), moving.len());
+    let size = change.len();
     let row = |k: usize, change: &[f64]| (0..size).map(|j| matrix[(k, j)] * change[j]).sum::<f64>();
-    let scaling: Vec<f64> = moving.iter().map(|&k| matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
-    let unit = Mat::from_fn(count, count, |i, j| {
-        let ridge = if i == j { RIDGE } else { 0.0 };
-        matrix[(moving[i], moving[j])] * scaling[i] * scaling[j] + ridge
-    });
-    let inverse = Cholesky::new(unit.as_ref())?.solve(Mat::<f64>::identity(count, count).as_ref());
-    let right: Vec<f64> = moving.iter().zip(&scaling).map(|(&k, s)| (gradient[k] - row(k, change)) * s).collect();
-    let mut variance = vec![0.0; size];
-    for (i, &k) in moving.iter().enumerate() {
-        change[k] = scaling[i] * (0..count).map(|j| inverse[(i, j)] * right[j]).sum::<f64>();
-        variance[k] = scaling[i] * scaling[i] * inverse[(i, i)].max(0.0);
+    let factor = factor_of(matrix, moving)?;
+    let right: Vec<f64> = moving.iter().map(|&k| gradient[k] - row(k, change)).collect();
+    let mut deviations = vec![0.0; size];
+    for ((&k, value), deviation) in moving.iter().zip(factor.solve(&right)).zip(factor.deviations()) {
+        (change[k], deviations[k]) = (value, deviation);
     }
     let turned: Vec<f64> = (0..size).map(|k| row(k, change)).collect();
-    Some((dot(change, &turned) - 2.0 * dot(gradient, change), variance))
+    Some((dot(change, &turned) - 2.0 * dot(gradient, change), deviations))
+}
+
+/// Factors of the rows and columns of `matrix` that are `kept`.
+fn factor_of(matrix: &Mat<f64>, kept: &[usize]) -> Option<EquilibratedCholesky> {
+    let own = Mat::from_fn(kept.len(), kept.len(), |i, j| matrix[(kept[i], kept[j])]);
+    EquilibratedCholesky::new(own.as_ref(), RIDGE)
 }
 
 #[cfg(test)]
@@ -146,7 +142,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models::{chain, source};
-    use crate::common::runs::decay;
+    use crate::common::runs::{decay, uniform};
     use crate::control::Control;
     use crate::diagnosis::records::data::Records;
     use crate::effects::Effect;
@@ -154,14 +150,10 @@ mod tests {
 
     /// Decays of a chain in both modes, as `truth` of `records` gives them, with noise that is the same at every call.
     fn decays(records: &Records, truth: &FittedRecords) -> Vec<TransientRun> {
-        let mut state = 1_u64;
-        let mut noise = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
-        };
+        let mut uniform = uniform(1);
         let mut decay_of_record = |r: usize| {
             let mut rows = truth.predict(records, r, records.list[r].len(), &[]).unwrap().channels;
-            rows.iter_mut().flatten().for_each(|y| *y += noise());
+            rows.iter_mut().flatten().for_each(|y| *y += 4e-5 * uniform());
             decay(4e-3, rows)
         };
         (0..records.list.len()).map(&mut decay_of_record).collect()

@@ -22,11 +22,12 @@ use super::steps::Steps;
 use super::variables::scales;
 use crate::effects::{Effect, Leg, Place, Source, State};
 use crate::response::transient::{Hold, TransientModel, TransientSetup, force_along};
-use dashpot_numerics::{Cholesky, dot};
-use faer::Mat;
+use dashpot_numerics::{EquilibratedCholesky, dot};
 
 /// Samples of all channels of a record that are looked at, about.
 const MOST_SAMPLES: usize = 5000;
+/// Share of the diagonal that is added to the normal equations, which need not tell all.
+const RIDGE: f64 = 1e-9;
 
 /// Starts that are taken, and how many of them may be of one law or at one place.
 const TAKEN: usize = 10;
@@ -53,8 +54,7 @@ pub(super) struct ScoreTest<'a> {
     linear: Vec<Source>,
     motion: FitMotion,
     thinned: Vec<Thinned>,
-    factored: Cholesky,
-    scaling: Vec<f64>,
+    factored: EquilibratedCholesky,
     /// `A^-1 g`.
     step: Vec<f64>,
 }
@@ -81,29 +81,16 @@ impl<'a> ScoreTest<'a> {
         let thinned: Vec<Thinned> = made.into_iter().collect::<Result<_, _>>()?;
         let products = thinned.iter().map(|t| t.derivatives.products(t.every as f64)).collect();
         let normal = problem.assembled(fit, scale(fit), products);
-        let size = normal.gradient.len();
-        let scaling: Vec<f64> = (0..size).map(|k| normal.matrix[(k, k)].max(1e-300).sqrt().recip()).collect();
-        let unit = Mat::from_fn(size, size, |i, j| {
-            let ridge = if i == j { 1e-9 } else { 0.0 };
-            normal.matrix[(i, j)] * scaling[i] * scaling[j] + ridge
-        });
-        let factored = Cholesky::new(unit.as_ref()).ok_or(RecordError::Singular)?;
+        let factored = EquilibratedCholesky::new(normal.matrix.as_ref(), RIDGE).ok_or(RecordError::Singular)?;
+        let step = factored.solve(&normal.gradient);
         let linear = fit.sources(records).into_iter().filter(|s| s.effect.is_linear()).collect();
         let motion = FitMotion::new(records, fit, problem.control)?;
-        let mut test = Self { records, fit, linear, motion, thinned, factored, scaling, step: Vec::new() };
-        test.step = test.solved(&normal.gradient);
-        Ok(test)
+        Ok(Self { records, fit, linear, motion, thinned, factored, step })
     }
 
     /// The motion of the fit.
     pub(super) fn motion(&self) -> &FitMotion {
         &self.motion
-    }
-
-    fn solved(&self, right: &[f64]) -> Vec<f64> {
-        let scaled = Mat::from_fn(right.len(), 1, |i, _| right[i] * self.scaling[i]);
-        let x = self.factored.solve(scaled.as_ref());
-        self.scaling.iter().enumerate().map(|(i, s)| x[(i, 0)] * s).collect()
     }
 
     /// The same beside a fit without the force of one of its laws along the motion that it has with it, to first order; to be made of a
@@ -125,7 +112,7 @@ impl<'a> ScoreTest<'a> {
             }
             derivatives.unknowns.iter().for_each(|(p, k, s)| back[*k] += s * by[*p]);
         }
-        let more = self.solved(&back);
+        let more = self.factored.solve(&back);
         self.step.iter_mut().zip(more).for_each(|(step, more)| *step += more);
         Ok(self)
     }
@@ -192,7 +179,7 @@ impl<'a> ScoreTest<'a> {
             }
             derivatives.unknowns.iter().for_each(|(p, k, s)| against[*k] += s * by[*p]);
         }
-        let beside = self.solved(&against);
+        let beside = self.factored.solve(&against);
         let product = product - dot(&against, &self.step);
         let rest = square - dot(&against, &beside);
         let factor = product / rest;
@@ -313,6 +300,7 @@ fn diverse(all: Vec<Scored>) -> Vec<Scored> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::common::runs::uniform;
     use crate::control::Control;
     use crate::measurement::transient_run::TransientLabel;
     use crate::measurement::{Channel, Kind, Quantity, Record, TransientRun};
@@ -349,11 +337,8 @@ mod tests {
         };
         let model = TransientModel::new(&TransientSetup::stated(structure, &modes, sources, &channels, STEP)).unwrap();
         let mut rows = model.predict(&forces, &[0.02, -0.01, 0.005, 0.0, 0.0, 0.0], &[]).unwrap().channels;
-        let mut state = 1_u64;
-        for y in rows.iter_mut().flatten() {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            *y += 4e-5 * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
-        }
+        let mut uniform = uniform(1);
+        rows.iter_mut().flatten().for_each(|y| *y += 4e-5 * uniform());
         let time = (0..SAMPLES).map(|k| STEP * k as f64).collect();
         let label = TransientLabel { file: "decay.csv".into(), kind: Kind::Decay, enabled: true, ..Default::default() };
         TransientRun::new(label, Arc::new(Record::new(time, channels, rows).unwrap()), &[]).unwrap()

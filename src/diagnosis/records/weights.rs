@@ -75,6 +75,7 @@ pub(super) fn in_band(signal: &[f64], step: f64, [low_hz, high_hz]: [f64; 2]) ->
 #[cfg(test)]
 mod tests {
     use super::deviations;
+    use crate::common::runs::uniform;
     use std::f64::consts::TAU;
 
     /// A burst at 200 Hz on a sine of 20 Hz: its root mean square counts where it is, nothing elsewhere.
@@ -110,11 +111,7 @@ mod tests {
     /// White noise stays what it is.
     #[test]
     fn noise_is_not_counted_twice() {
-        let mut state = 1_u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut uniform = uniform(1);
         let signal: Vec<f64> = (0..4000).map(|_| uniform() * 12.0_f64.sqrt()).collect();
         let sigma = deviations(&signal, 1.0, 1e-3, 100.0);
         let mean = sigma.iter().sum::<f64>() / sigma.len() as f64;

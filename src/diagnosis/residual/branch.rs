@@ -134,7 +134,7 @@ fn at_measured_motion(
     let n = predictor.structure().len();
     let mut field = Mat::from_fn(n, run.harmonics, |dof, h| first.response.amplitude(dof, h + 1));
     for h in 1..=run.harmonics {
-        if let Some(expansion) = ModalExpansion::new(predictor, (r, h), run, first) {
+        if let Some(expansion) = ModalExpansion::new(predictor, r, h, run, first) {
             expansion.correct(run, h, field.col_as_slice_mut(h - 1));
         }
     }

@@ -5,45 +5,24 @@
 //! taken = sum over sources of integral d' F dt                       (4.22)
 //! ```
 //!
-//! Where not every DOF is measured the field is that of the model, its harmonics each scaled by the complex factor that
+//! Where every DOF is measured, `points::energies` takes the measured motion; here it is that of the model, its harmonics each scaled by the complex factor that
 //! fits the sensors best: near a resonance the shape of the motion is known far better than its size.
 
+use crate::balance::action::{self, Field};
 use crate::balance::measured::NOMINAL;
 use crate::diagnosis::residual::data::{ChannelData, RunData};
 use crate::diagnosis::residual::prediction::RunPrediction;
-use crate::effects::{Kind, Place, Source};
+use crate::effects::Source;
+use crate::math::fill::filled_complex;
 use crate::measurement::Quantity;
 use crate::structure::Structure;
-use faer::{Mat, c64};
-use std::f64::consts::PI;
+use faer::c64;
 
-/// Samples a period for laws without an exact formula.
-pub(crate) const SAMPLES: usize = 512;
-
-/// Displacement amplitudes of harmonics 1.. (m) of a DOF.
-pub(crate) type Field<'a> = dyn Fn(usize) -> Vec<c64> + 'a;
-
-/// Energy in J that the force channels of a run put in over one period, with the displacements `field`.
-pub(crate) fn input(run: &RunData, field: &Field) -> f64 {
-    let of_channel = |dof: usize, forces: &[c64]| -> f64 {
-        let x = field(dof);
-        x.iter().zip(forces).enumerate().map(|(i, (x, f))| PI * (i + 1) as f64 * (x.conj() * f).im).sum()
-    };
-    run.forces.iter().map(|f| of_channel(f.dof, &f.measured)).sum()
-}
-
-/// Energy in J that a source takes out over one period of `field`, from so many `samples` of it.
-pub(crate) fn taken(structure: &Structure, source: &Source, omega: f64, field: &Field, samples: usize) -> f64 {
-    let (Kind::Whole(law), Some(basis)) = (source.effect.kind(), whole_matrix(structure, source)) else {
-        return source.energy(omega, field, samples).unwrap_or(0.0);
-    };
-    let all: Vec<Vec<c64>> = (0..structure.len()).map(field).collect();
-    let order = all.first().map_or(0, Vec::len);
-    let of_harmonic = |h: usize| {
-        let x: Vec<c64> = all.iter().map(|d| d[h - 1]).collect();
-        PI * h as f64 * law.factor(source.parameters[0], h as f64 * omega).im * quadratic(&basis, &x)
-    };
-    (1..=order).map(of_harmonic).sum()
+/// Energy in J that the force channels of a run put in over one period, with the displacement amplitudes of harmonics 1.. (m) of a DOF.
+pub(crate) fn input(run: &RunData, displacement: &dyn Fn(usize) -> Vec<c64>) -> f64 {
+    let of_channel =
+        |f: &ChannelData| action::work((1..).zip(displacement(f.dof)).zip(&f.measured).map(|((h, x), f)| (h, x, *f)));
+    run.forces.iter().map(of_channel).sum()
 }
 
 /// The measured displacement amplitudes of a DOF, if a channel measures it: sensors there are averaged by the inverse of their
@@ -91,32 +70,14 @@ pub(crate) fn energy_error(
     prediction: &RunPrediction,
 ) -> f64 {
     let factors = scaled_factors(run, prediction);
-    let field = |dof: usize| -> Vec<c64> {
-        factors.iter().enumerate().map(|(i, f)| f * prediction.response.amplitude(dof, i + 1)).collect()
-    };
-    let driven = |dof: usize| measured_displacement(run, dof).unwrap_or_else(|| field(dof));
-    let given = input(run, &driven);
-    let lost: f64 = sources.iter().map(|s| taken(structure, s, run.omega, &field, SAMPLES)).sum();
+    let x =
+        filled_complex(structure.len(), factors.len(), |dof, k| factors[k] * prediction.response.amplitude(dof, k + 1));
+    let numbers: Vec<usize> = (1..=factors.len()).collect();
+    let field = Field { omega: run.omega, numbers: &numbers, x: &x };
+    let model = |dof: usize| (0..factors.len()).map(|k| x[(dof, k)]).collect();
+    let given = input(run, &|dof| measured_displacement(run, dof).unwrap_or_else(|| model(dof)));
+    let lost: f64 = sources.iter().map(|source| action::energy(source, structure, field)).sum();
     if given == 0.0 { if lost == 0.0 { 0.0 } else { 1.0 } } else { ((given - lost) / given).abs() }
-}
-
-/// Matrix on which a whole-structure law acts; `None` for other sources and structures without matrices.
-pub(crate) fn whole_matrix(structure: &Structure, source: &Source) -> Option<Mat<f64>> {
-    let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) else { return None };
-    let matrices = structure.matrices()?;
-    Some(match *range {
-        None => law.basis().of_structure(structure, matrices),
-        Some(range) => law.basis().of_elements(structure, range),
-    })
-}
-
-/// `x^H B x` for symmetric real `B`.
-fn quadratic(b: &Mat<f64>, x: &[c64]) -> f64 {
-    let row = |(j, xj): (usize, &c64)| {
-        let product = b.col_as_slice(j).iter().zip(x).fold(c64::new(0.0, 0.0), |s, (b, xi)| s + xi.conj() * *b);
-        (product * xj).re
-    };
-    x.iter().enumerate().map(row).sum()
 }
 
 #[cfg(test)]

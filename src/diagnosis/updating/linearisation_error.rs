@@ -40,7 +40,7 @@ fn errors(
     share: impl Fn(f64) -> f64,
 ) -> Vec<Vec<Vec<f64>>> {
     let of_run = |(r, (run, prediction)): (usize, (&RunData, &RunPrediction))| {
-        let share_of = |h: usize| if h == 0 { 0.0 } else { share(square(linearisation, (r, h), run, prediction)) };
+        let share_of = |h: usize| if h == 0 { 0.0 } else { share(square(linearisation, r, h, run, prediction)) };
         let shares: Vec<f64> = (0..run.harmonics).map(share_of).collect();
         let channel = |c: usize| shares.iter().enumerate().map(|(h, s)| s * size(run, prediction, c, h)).collect();
         (0..run.responses.len()).map(channel).collect()
@@ -54,7 +54,7 @@ fn size(run: &RunData, prediction: &RunPrediction, c: usize, h: usize) -> f64 {
 }
 
 /// `s^2` of harmonic index `h` of run `r`, over all its channels.
-fn square(linearisation: &Linearisation, (r, h): (usize, usize), run: &RunData, prediction: &RunPrediction) -> f64 {
+fn square(linearisation: &Linearisation, r: usize, h: usize, run: &RunData, prediction: &RunPrediction) -> f64 {
     let updating = &linearisation.updating;
     let [slopes, _] = linearisation.of_harmonic(r, h + 1);
     let by = |k: usize, c: usize| slopes[k][c].norm_sqr() / run.scale(c).powi(2);

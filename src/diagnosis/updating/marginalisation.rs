@@ -100,14 +100,8 @@ impl Marginalisation {
     }
 
     /// Turns a column of a Jacobian into the marginal one.
-    pub(crate) fn column(&self, mut rows: Vec<f64>) -> Vec<f64> {
-        let basis = self.basis();
-        rows.resize(rows.len() + basis.len(), 0.0);
-        for direction in basis {
-            let share = dot(direction, &rows);
-            rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
-        }
-        rows
+    pub(crate) fn column(&self, rows: Vec<f64>) -> Vec<f64> {
+        marginal(self.basis(), rows)
     }
 
     /// The parameters (standardised) that fit the whitened residual `rows`, which was taken at the reference; those of the reference
@@ -186,6 +180,16 @@ impl Marginalisation {
         }
         Scales::from_list(list)
     }
+}
+
+/// `rows`, with a zero behind for each of the orthonormal columns `basis` of what is eliminated, without their share along these.
+pub(crate) fn marginal(basis: &[Vec<f64>], mut rows: Vec<f64>) -> Vec<f64> {
+    rows.resize(rows.len() + basis.len(), 0.0);
+    for direction in basis {
+        let share = dot(direction, &rows);
+        rows.iter_mut().zip(direction).for_each(|(r, d)| *r -= share * d);
+    }
+    rows
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ impl<'a> MeasuredMotion<'a> {
         let run = &self.data.runs[r];
         let mut slope = vec![vec![c64::new(0.0, 0.0); run.harmonics]; run.responses.len()];
         for h in 1..=self.fields[r].len() {
-            let force = self.force((r, h), sources, sum);
+            let force = self.force(r, h, sources, sum);
             for (slope, channel) in slope.iter_mut().zip(&run.responses) {
                 let moved = |&(dof, f): &(usize, c64)| self.receptances.entry(r, h, dof, channel.dof) * f;
                 slope[h - 1] = force.iter().map(moved).sum::<c64>() * channel.from_displacement(h as f64 * run.omega);
@@ -75,7 +75,7 @@ impl<'a> MeasuredMotion<'a> {
     }
 
     /// The force `-dZ X` (N) of a sum at harmonic `h` of run `r`, at the DOFs at which it acts: a part of the structure acts at few.
-    fn force(&self, (r, h): (usize, usize), sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<(usize, c64)> {
+    fn force(&self, r: usize, h: usize, sources: &[Source], sum: &[(Unknown, f64)]) -> Vec<(usize, c64)> {
         let run = &self.data.runs[r];
         let (x, w) = (&self.fields[r][h - 1], h as f64 * run.omega);
         let mut force = vec![c64::new(0.0, 0.0); x.len()];

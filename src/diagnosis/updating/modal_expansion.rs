@@ -38,7 +38,7 @@ impl ModalExpansion {
         highest: usize,
     ) -> Vec<Vec<Option<Self>>> {
         let of_run = |(r, (run, prediction)): (usize, (&RunData, &RunPrediction))| {
-            (1..=run.harmonics.min(highest)).map(|h| Self::new(predictor, (r, h), run, prediction)).collect()
+            (1..=run.harmonics.min(highest)).map(|h| Self::new(predictor, r, h, run, prediction)).collect()
         };
         data.runs.iter().zip(predictions).enumerate().map(of_run).collect()
     }
@@ -46,7 +46,8 @@ impl ModalExpansion {
     /// Of harmonic `h` of run number `r`; none where its model is singular or agrees with the sensors.
     pub(crate) fn new(
         predictor: &Predictor,
-        (r, h): (usize, usize),
+        r: usize,
+        h: usize,
         run: &RunData,
         prediction: &RunPrediction,
     ) -> Option<Self> {

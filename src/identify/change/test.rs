@@ -1,7 +1,7 @@
 //! Probabilities of chance: of one difference, of many corrected for their number, of all together.
 
 use crate::math::statistics::normal_cdf;
-use dashpot_numerics::Cholesky;
+use dashpot_numerics::{EquilibratedCholesky, dot};
 use faer::Mat;
 
 /// Probability of chance below which a difference is called a change.
@@ -33,15 +33,12 @@ pub(super) fn holm(chances: &[f64]) -> Vec<f64> {
 /// `d^T S^-1 d`; `None` where the covariance is not determined or there is nothing to compare.
 pub(super) fn chi_square_of(differences: &[f64], covariance: &dyn Fn(usize, usize) -> f64) -> Option<f64> {
     let n = differences.len();
-    // In units of the deviations: coefficients of different laws differ by powers of ten.
-    let scale: Vec<f64> = (0..n).map(|i| covariance(i, i).sqrt()).collect();
-    if n == 0 || scale.iter().any(|s| !(*s > 0.0 && s.is_finite())) {
+    if n == 0 {
         return None;
     }
-    let matrix = Mat::from_fn(n, n, |i, j| covariance(i, j) / (scale[i] * scale[j]));
-    let d = Mat::from_fn(n, 1, |i, _| differences[i] / scale[i]);
-    let x = Cholesky::new(matrix.as_ref())?.solve(d.as_ref());
-    Some((0..n).map(|i| d[(i, 0)] * x[(i, 0)]).sum())
+    // Coefficients of different laws differ by powers of ten.
+    let factor = EquilibratedCholesky::new(Mat::from_fn(n, n, covariance).as_ref(), 0.0)?;
+    Some(dot(differences, &factor.solve(differences)))
 }
 
 #[cfg(test)]

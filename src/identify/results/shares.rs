@@ -41,11 +41,7 @@ fn add(source: &Source, structure: &Structure, field: Field<'_>, sum: &mut [f64]
             let energy = action::energy(source, structure, field);
             let sizes: Vec<(usize, f64)> = action::force(source, structure, field)
                 .into_iter()
-                .map(|(dof, f)| {
-                    let work: f64 =
-                        (0..f.len()).map(|k| field.numbers[k] as f64 * (field.x[(dof, k)].conj() * f[k]).im).sum();
-                    (dof, work.abs())
-                })
+                .map(|(dof, f)| (dof, field.work(dof, &f).abs()))
                 .collect();
             let all: f64 = sizes.iter().map(|(_, s)| s).sum();
             for (dof, size) in sizes.into_iter().filter(|_| all > 0.0) {

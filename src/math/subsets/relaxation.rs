@@ -36,40 +36,44 @@ impl Normal {
         }
         Self { n, gram, h: unit.columns.iter().map(|c| dot(c, &unit.b)).collect() }
     }
-}
 
-impl Normal {
     /// Whether least squares without bounds on `set` gives a coefficient that is negative beyond rounding: then the best with
     /// bounds leaves a column out, and the set is none of its size. False where rounding hides it.
     pub(super) fn has_negative(&self, set: &[usize]) -> bool {
-        let k = set.len();
-        let mut factor = vec![0.0; k * k];
-        let mut x: Vec<f64> = set.iter().map(|&j| self.h[j]).collect();
-        let mut least = 1.0_f64;
-        for i in 0..k {
-            for j in 0..=i {
-                let known: f64 = (0..j).map(|l| factor[i * k + l] * factor[j * k + l]).sum();
-                let rest = self.gram[set[i] * self.n + set[j]] - known;
-                if i == j {
-                    if rest <= PIVOT {
-                        return false;
-                    }
-                    least = least.min(rest);
-                    factor[i * k + i] = rest.sqrt();
-                } else {
-                    factor[i * k + j] = rest / factor[j * k + j];
-                }
-            }
-            let known: f64 = (0..i).map(|l| factor[i * k + l] * x[l]).sum();
-            x[i] = (x[i] - known) / factor[i * k + i];
-        }
-        for i in (0..k).rev() {
-            let known: f64 = (i + 1..k).map(|l| factor[l * k + i] * x[l]).sum();
-            x[i] = (x[i] - known) / factor[i * k + i];
-        }
+        let Some((x, least)) = self.solve(set) else { return false };
         let size = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let rounding = ROUNDING * f64::EPSILON / least * size;
         x.iter().any(|v| *v < -rounding)
+    }
+
+    /// Solves `N_SS x = h_S`, with the least pivot; `None` when a column depends on those before it. By hand: a general factorisation costs
+    /// more to call than these few columns to solve, and a node of the search makes some.
+    fn solve(&self, set: &[usize]) -> Option<(Vec<f64>, f64)> {
+        let p = set.len();
+        let mut l = vec![0.0; p * p];
+        let mut x = vec![0.0; p];
+        let mut least = 1.0_f64;
+        for i in 0..p {
+            for j in 0..=i {
+                let known: f64 = l[i * p..i * p + j].iter().zip(&l[j * p..j * p + j]).map(|(a, b)| a * b).sum();
+                let rest = self.gram[set[i] * self.n + set[j]] - known;
+                if i > j {
+                    l[i * p + j] = rest / l[j * p + j];
+                } else if rest > PIVOT {
+                    least = least.min(rest);
+                    l[i * p + i] = rest.sqrt();
+                } else {
+                    return None;
+                }
+            }
+            let known: f64 = l[i * p..i * p + i].iter().zip(&x).map(|(a, b)| a * b).sum();
+            x[i] = (self.h[set[i]] - known) / l[i * p + i];
+        }
+        for i in (0..p).rev() {
+            let known: f64 = (i + 1..p).map(|k| l[k * p + i] * x[k]).sum();
+            x[i] = (x[i] - known) / l[i * p + i];
+        }
+        Some((x, least))
     }
 }
 
@@ -131,7 +135,7 @@ impl Relaxed {
     /// Least squares on the columns in use, giving up those whose coefficient would turn negative.
     fn settle(&mut self, normal: &Normal) -> Option<()> {
         loop {
-            let target = cholesky_solve(normal, &self.passive)?;
+            let (target, _) = normal.solve(&self.passive)?;
             if target.iter().all(|&t| t > 0.0) {
                 self.x = target;
                 return Some(());
@@ -159,31 +163,4 @@ impl Relaxed {
         self.squared_residual = fit.residual_norm * fit.residual_norm;
         Ok(())
     }
-}
-
-/// Solves `N_PP x = h_P`; `None` when a column depends on those before it.
-fn cholesky_solve(normal: &Normal, passive: &[usize]) -> Option<Vec<f64>> {
-    let p = passive.len();
-    let mut l = vec![0.0; p * p];
-    let mut x = vec![0.0; p];
-    for i in 0..p {
-        for j in 0..=i {
-            let known: f64 = l[i * p..i * p + j].iter().zip(&l[j * p..j * p + j]).map(|(a, b)| a * b).sum();
-            let rest = normal.gram[passive[i] * normal.n + passive[j]] - known;
-            if i > j {
-                l[i * p + j] = rest / l[j * p + j];
-            } else if rest > PIVOT {
-                l[i * p + i] = rest.sqrt();
-            } else {
-                return None;
-            }
-        }
-        let known: f64 = l[i * p..i * p + i].iter().zip(&x).map(|(a, b)| a * b).sum();
-        x[i] = (normal.h[passive[i]] - known) / l[i * p + i];
-    }
-    for i in (0..p).rev() {
-        let known: f64 = (i + 1..p).map(|k| l[k * p + i] * x[k]).sum();
-        x[i] = (x[i] - known) / l[i * p + i];
-    }
-    Some(x)
 }

@@ -51,7 +51,7 @@ impl LinearPart {
         let mut part = Self { whole: Vec::new(), ..self.clone() };
         for source in sources {
             if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place) {
-                let own = range.map(|range| Arc::new(law.basis().of_elements(&self.structure, range)));
+                let own = range.and_then(|_| law.basis().matrix(&self.structure, *range)).map(Arc::new);
                 part.whole.push((source.clone(), own));
             }
         }

@@ -7,7 +7,7 @@
 //! The linear rest is condensed exactly to the relative motions of the nonlinear sources (`condense`), whose forces are
 //! found by a damped Newton method with analytic Jacobian (`iterate`, `newton`, `legs`). Friction is set-valued, not regularised.
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
-//! (`continuation`; `branches` at one force); stability is that of Floquet's multipliers (`stability`).
+//! (`continuation`: `sweep` over frequency, `arc` over the level of the force; `branches` at one force); stability is that of Floquet's multipliers (`stability`).
 
 mod arc;
 mod branches;
@@ -33,6 +33,7 @@ mod resonant;
 mod settings;
 mod solve;
 mod stability;
+mod sweep;
 mod unknown_subset;
 
 pub(crate) use compliance::LinearPart;
@@ -43,10 +44,10 @@ pub(crate) use newton::Balance;
 pub(crate) use prepared::Prepared;
 pub(crate) use solve::richardson;
 
-pub use continuation::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, sweep};
 pub use error::{ModelError, ResponseError};
 pub use excitation::{Excitation, HarmonicForce};
 pub use model::{ForwardModel, RunModel};
 pub use outcome::{Attempt, ConvergenceStep, Response, SourceForce, Status};
 pub use settings::Settings;
 pub use stability::{is_stable, multipliers};
+pub use sweep::{Sweep, SweepEnd, SweepPoint, SweepSettings, branches, sweep};

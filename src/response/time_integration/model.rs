@@ -349,18 +349,11 @@ fn add_legs(matrix: &mut Mat<f64>, source: &Source) {
 
 /// `beta K` or `alpha M`, of the whole structure or of a range of its elements.
 fn add_whole(damping: &mut Mat<f64>, structure: &Structure, source: &Source) {
-    let (Kind::Whole(law), Place::Whole(range), Some(matrices)) =
-        (source.effect.kind(), &source.place, structure.matrices())
-    else {
-        return;
-    };
-    let factor = source.parameters[0];
-    let Some(range) = *range else {
-        let matrix = law.basis().of_structure(structure, matrices);
-        *damping += Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| factor * matrix[(i, j)]);
-        return;
-    };
-    law.basis().entries(structure, range).for_each(|(i, j, value)| damping[(i, j)] += factor * value);
+    if let (Kind::Whole(law), Place::Whole(range)) = (source.effect.kind(), &source.place)
+        && let Some(matrix) = law.basis().matrix(structure, *range)
+    {
+        *damping += matrix * faer::Scale(source.parameters[0]);
+    }
 }
 
 /// Force patterns: of the elements first, then of the driven DOFs.

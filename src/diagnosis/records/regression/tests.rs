@@ -4,6 +4,7 @@
 use super::*;
 use crate::common::models::{chain, source};
 use crate::common::runs::decay;
+use crate::common::runs::uniform;
 
 const MASSES: [f64; 2] = [2.0, 1.0];
 const GROUND: f64 = 1800.0;
@@ -25,11 +26,10 @@ fn free_motion(start: [f64; 2], law: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> 
     let h = STEP / FINE as f64;
     let mut state = [start[0], start[1], 0.0, 0.0];
     let mut rows = vec![Vec::new(); 2];
-    let mut noise = 1_u64;
+    let mut uniform = uniform(1);
     for _ in 0..SAMPLES {
         for (row, x) in rows.iter_mut().zip(state) {
-            noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            row.push(x + 2e-6 * ((noise >> 11) as f64 / (1_u64 << 53) as f64 - 0.5));
+            row.push(x + 2e-6 * uniform());
         }
         for _ in 0..FINE {
             let a = slope(state);
