@@ -40,7 +40,7 @@ pub enum ComponentError {
 
 /// One record.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Loop {
+pub struct LoopRecord {
     /// Number among the records of the project.
     pub index: usize,
     /// Name of its file.
@@ -89,7 +89,7 @@ struct Node {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loops {
     /// Records that are used.
-    pub list: Vec<Loop>,
+    pub list: Vec<LoopRecord>,
     /// Known sources.
     pub known: Vec<Source>,
     /// Mass that moves with the force cell, kg.
@@ -103,7 +103,7 @@ impl Loops {
     /// [`ComponentError`]: no run, a channel that is missing, a law without a force in time.
     pub fn new(structure: &Structure, sources: &[Source], runs: &[TransientRun]) -> Result<Self, ComponentError> {
         let used = runs.iter().enumerate().filter(|(_, run)| run.enabled);
-        let list: Vec<Loop> = used.map(|(index, run)| Loop::new(index, run)).collect::<Result<_, _>>()?;
+        let list: Vec<LoopRecord> = used.map(|(index, run)| LoopRecord::new(index, run)).collect::<Result<_, _>>()?;
         if list.is_empty() {
             return Err(ComponentError::NoRuns);
         }
@@ -132,7 +132,7 @@ impl Loops {
     }
 }
 
-impl Loop {
+impl LoopRecord {
     /// Of a run.
     ///
     /// # Errors

@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-11;
 
 /// Complex amplitudes at a number of places with the standard deviation of their real (and imaginary) parts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Amplitudes {
+pub struct MeasuredAmplitudes {
     /// DOF row of each place.
     pub dofs: Vec<usize>,
     /// Places x kept harmonics; m or N.
@@ -29,7 +29,7 @@ pub struct Amplitudes {
     pub deviations: Mat<f64>,
 }
 
-impl Amplitudes {
+impl MeasuredAmplitudes {
     /// Number of places.
     pub fn len(&self) -> usize {
         self.dofs.len()
@@ -51,9 +51,9 @@ pub struct Measured {
     /// Harmonics that stand out of the noise in at least one channel; 1 is always among them.
     pub numbers: Vec<usize>,
     /// Displacement of the sensors, m.
-    pub sensors: Amplitudes,
+    pub sensors: MeasuredAmplitudes,
     /// Forces of the exciters, N.
-    pub forces: Amplitudes,
+    pub forces: MeasuredAmplitudes,
     /// Whether the deviations come from the data; if not they are nominal.
     pub noisy: bool,
 }
@@ -149,7 +149,7 @@ fn stands_out(fit: &ChannelFit, h: usize, noisy: bool) -> bool {
         && if noisy { amplitude.powi(2) > 2.0 * SIGNIFICANT * deviation.powi(2) } else { amplitude > 10.0 * deviation }
 }
 
-fn amplitudes(fits: &[&ChannelFit], omega: f64, numbers: &[usize]) -> Amplitudes {
+fn amplitudes(fits: &[&ChannelFit], omega: f64, numbers: &[usize]) -> MeasuredAmplitudes {
     let order = |fit: &ChannelFit| fit.channel.quantity.derivatives().unwrap_or(0);
     let factor = |fit: &ChannelFit, k: usize| c64::new(0.0, numbers[k] as f64 * omega).powi(-order(fit));
     // A channel that reads nothing at all borrows the floor of its neighbours.
@@ -162,5 +162,5 @@ fn amplitudes(fits: &[&ChannelFit], omega: f64, numbers: &[usize]) -> Amplitudes
         let floor = if own > 0.0 { NOMINAL * own } else { NOMINAL * loudest };
         (fit.deviation(numbers[k]) * scale).max(floor).max(f64::MIN_POSITIVE.sqrt())
     });
-    Amplitudes { dofs: fits.iter().map(|f| f.channel.dof).collect(), values, deviations }
+    MeasuredAmplitudes { dofs: fits.iter().map(|f| f.channel.dof).collect(), values, deviations }
 }

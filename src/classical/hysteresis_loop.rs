@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 /// What a loop shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loop {
+pub struct LoopProperties {
     /// Area, J.
     pub area: f64,
     /// Equivalent viscous coefficient, N s/m.
@@ -23,9 +23,9 @@ pub struct Loop {
 }
 
 /// From complex amplitudes of harmonics 1, 2, ... of displacement (m) and force (N), frequency in rad/s, stiffness in N/m.
-pub fn from_harmonics(omega: f64, displacement: &[c64], force: &[c64], stiffness: f64) -> Loop {
+pub fn from_harmonics(omega: f64, displacement: &[c64], force: &[c64], stiffness: f64) -> LoopProperties {
     let area = work((1..).zip(displacement).zip(force).map(|((h, x), f)| (h, *x, *f)));
     let speed: f64 = displacement.iter().enumerate().map(|(h, x)| ((h + 1) as f64).powi(2) * x.norm_sqr()).sum();
     let size: f64 = displacement.iter().map(c64::norm_sqr).sum();
-    Loop { area, viscous: area / (PI * omega * speed), loss_factor: area / (PI * stiffness * size) }
+    LoopProperties { area, viscous: area / (PI * omega * speed), loss_factor: area / (PI * stiffness * size) }
 }

@@ -5,7 +5,7 @@ use super::arguments_import::Import;
 use super::arguments_report::Report;
 use super::screen::{Picture, Window};
 use crate::exchange::export::Format;
-use crate::response::frequency_response::Quantity;
+use crate::response::frequency_response::ResponseForm;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -334,11 +334,11 @@ pub(super) enum ResponseQuantity {
 
 impl ResponseQuantity {
     /// The same in the engine's terms.
-    pub(super) fn quantity(self) -> Quantity {
+    pub(super) fn quantity(self) -> ResponseForm {
         match self {
-            Self::Receptance => Quantity::Receptance,
-            Self::Mobility => Quantity::Mobility,
-            Self::Accelerance => Quantity::Accelerance,
+            Self::Receptance => ResponseForm::Receptance,
+            Self::Mobility => ResponseForm::Mobility,
+            Self::Accelerance => ResponseForm::Accelerance,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::diagnosis::compare;
 use crate::diagnosis::result::{Diagnosis, Verdict};
 use crate::effects::Source;
 use crate::exchange::Project;
-use crate::identify::{Status, identify};
+use crate::identify::{SelectionStatus, identify};
 use crate::session::identified;
 use crate::session::validation::{only_records, problem};
 use anyhow::Context;
@@ -84,7 +84,8 @@ impl Alternative {
         let named = |source: &Source| {
             diagnosis.suggestions.iter().any(|s| s.probability > NAMED && s.added.source.is_same(source))
         };
-        let is_as_good = outcome.status == Status::WithinNoise && error <= suggested && !sources.iter().any(named);
+        let is_as_good =
+            outcome.status == SelectionStatus::WithinNoise && error <= suggested && !sources.iter().any(named);
         is_as_good.then_some(Self { sources, error, suggested })
     }
 

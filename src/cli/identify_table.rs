@@ -4,7 +4,7 @@ use super::table::{number, significant, table};
 use crate::effects::{Source, State};
 use crate::exchange::Project;
 use crate::identify::outcome::WindowOutcome;
-use crate::identify::{Estimate, Outcome, SelectionStep, Status};
+use crate::identify::{Estimate, Outcome, SelectionStatus, SelectionStep};
 use crate::structure::Structure;
 use faer::Mat;
 use std::f64::consts::TAU;
@@ -37,7 +37,7 @@ pub(super) fn report(project: &Project, outcome: &Outcome) -> String {
 /// What is said where no set of the candidates explains the measurement.
 fn above_noise(outcome: &Outcome) -> &'static str {
     match outcome.status {
-        Status::AboveNoise => {
+        SelectionStatus::AboveNoise => {
             "These candidates alone do not explain what was measured; `dashpot diagnose` looks for other laws, and for errors of\n\
              the model and of channels.\n"
         }

@@ -8,7 +8,7 @@ use crate::exchange::importing::files::{listed, may_be_measurement};
 use crate::exchange::importing::{Kept, Request, import, proposal};
 use crate::exchange::project::file::Label;
 use crate::exchange::project::frf::FrfTable;
-use crate::exchange::project::{Problem, frf_template, template};
+use crate::exchange::project::{TableProblem, frf_template, template};
 use anyhow::{Context, ensure};
 use dashpot_datafiles::Pairing;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ fn request(arguments: &Import) -> anyhow::Result<Request> {
         (Some(table), _) => responses_template(&mut request, table),
         (None, Ok(channels)) => request.channels = Some(channels),
         // A model alone: the mapping is proposed.
-        (None, Err(error)) if request.kept.is_some() && matches!(*error.problem, Problem::Empty { .. }) => {}
+        (None, Err(error)) if request.kept.is_some() && matches!(*error.problem, TableProblem::Empty { .. }) => {}
         (None, Err(error)) => return Err(error.into()),
     }
     Ok(request)

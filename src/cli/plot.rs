@@ -15,7 +15,7 @@ use crate::exchange::project::load;
 use crate::identify::Outcome;
 use crate::measurement::{Quantity, TransientRun};
 use crate::plots::bars::{self, Bar};
-use crate::plots::bode::{Diagram, Response};
+use crate::plots::bode::{Diagram, ReceptanceCurve};
 use crate::plots::channel_response::ChannelResponse;
 use crate::plots::cycle::Cycle;
 use crate::plots::drawing::Drawing;
@@ -244,8 +244,9 @@ impl Plotter<'_> {
             Ok(o) => (forward::frequencies(p, &o), forward::acting(p, &o)),
             Err(_) => (forward::frequencies_of_modes(p), forward::known(p)),
         };
-        let response: Response = forward::receptance(&p.structure, &sources, omega, [sensor, excitation], self.control)
-            .map_err(anyhow::Error::msg)?;
+        let response: ReceptanceCurve =
+            forward::receptance(&p.structure, &sources, omega, [sensor, excitation], self.control)
+                .map_err(anyhow::Error::msg)?;
         let quantity = self.arguments.quantity.quantity();
         let diagram = Diagram { project: p, response: &response, quantity };
         if self.arguments.what == PlotKind::Bode {

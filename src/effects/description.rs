@@ -21,7 +21,7 @@ pub enum Constant {
 
 /// Which part of the ratio of force to motion a law shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Part {
+pub enum ForcePart {
     /// In phase with velocity: equivalent viscous coefficient `c_eq = Im (F_1 / D_1) / omega`.
     Damping,
     /// In phase with displacement: equivalent stiffness `k_eq = Re (F_1 / D_1)`.
@@ -31,8 +31,8 @@ pub enum Part {
 /// Powers with which the equivalent coefficient of a law goes: `c_eq` or `k_eq` as `|D|^amplitude omega^frequency`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponents {
-    /// Part of the force that has them.
-    pub part: Part,
+    /// ForcePart of the force that has them.
+    pub part: ForcePart,
     /// Power of the amplitude of the relative displacement.
     pub amplitude: f64,
     /// Power of the frequency.
@@ -42,12 +42,12 @@ pub struct Exponents {
 impl Exponents {
     /// Of a force in phase with velocity.
     pub const fn damping(amplitude: f64, frequency: f64) -> Option<Self> {
-        Some(Self { part: Part::Damping, amplitude, frequency })
+        Some(Self { part: ForcePart::Damping, amplitude, frequency })
     }
 
     /// Of a force in phase with displacement.
     pub const fn stiffness(amplitude: f64, frequency: f64) -> Option<Self> {
-        Some(Self { part: Part::Stiffness, amplitude, frequency })
+        Some(Self { part: ForcePart::Stiffness, amplitude, frequency })
     }
 }
 

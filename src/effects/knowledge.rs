@@ -1,6 +1,6 @@
 //! What may be asked of an effect by its name alone: its law and what is known of it.
 
-use super::description::{Constant, Description, Exponents, Part};
+use super::description::{Constant, Description, Exponents, ForcePart};
 use super::effect::Effect;
 use super::kind::Kind;
 use super::law::{Law, WholeLaw};
@@ -84,7 +84,7 @@ impl Effect {
 
     /// Laws of one parameter whose equivalent coefficient goes with a power of the amplitude, and that power, in rising order; of
     /// laws that share a power the first. Measured powers are compared with them.
-    pub fn amplitude_powers(part: Part) -> Vec<(Self, f64)> {
+    pub fn amplitude_powers(part: ForcePart) -> Vec<(Self, f64)> {
         let mut powers: Vec<(Self, f64)> = Vec::new();
         for (effect, _) in Self::relative().filter(|(effect, _)| effect.parameters().len() == 1) {
             let exponents = effect.exponents(effect.description().example).filter(|exponents| exponents.part == part);

@@ -29,7 +29,7 @@ pub(crate) mod ways;
 pub(crate) mod wording;
 
 pub use basis::Basis;
-pub use description::{Constant, Description, Exponents, Part};
+pub use description::{Constant, Description, Exponents, ForcePart};
 pub use effect::Effect;
 pub use family::Family;
 pub use kind::Kind;

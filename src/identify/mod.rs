@@ -38,7 +38,7 @@ mod window_columns;
 
 pub use error::IdentifyError;
 pub use measurements::Measurements;
-pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, SelectionStep, Status};
+pub use outcome::{Estimate, Form, Outcome, RankedAlternative, RunOutcome, SelectionStatus, SelectionStep};
 pub use results::Results;
 pub use settings::Settings;
 

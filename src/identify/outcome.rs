@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// How the search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Status {
+pub enum SelectionStatus {
     /// The accepted set explains the data to their noise.
     WithinNoise,
     /// No set reaches the noise; the accepted one is the best by the Bayesian criterion.
@@ -156,7 +156,7 @@ pub struct Collinear {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// How the search ended.
-    pub status: Status,
+    pub status: SelectionStatus,
     /// Why the accepted set, in words.
     pub reason: String,
     /// Which equation was solved.

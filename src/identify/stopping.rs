@@ -3,7 +3,7 @@
 //! known noise the angle rules, as in the thesis.
 
 use super::negligible::without_negligible;
-use super::outcome::{Form, Status};
+use super::outcome::{Form, SelectionStatus};
 use super::problem::Problem;
 use super::search::SizeRanking;
 use super::solve;
@@ -23,7 +23,7 @@ const STRONG: f64 = 6.0;
 pub(crate) struct Decision {
     /// Index into the rankings.
     pub accepted: usize,
-    pub status: Status,
+    pub status: SelectionStatus,
     pub reason: String,
     /// Index of the larger set that fits better by sources of next to no energy, which are not taken.
     pub larger: Option<usize>,
@@ -53,7 +53,7 @@ impl Pass<'_, '_> {
     pub(crate) fn decide(&self, rankings: &[SizeRanking]) -> Decision {
         let (decision, rows) = (self.decided(rankings), self.system.rows());
         let count = rankings[decision.accepted].best().columns.len();
-        if matches!(decision.status, Status::AboveNoise | Status::AboveAngle) || count < rows {
+        if matches!(decision.status, SelectionStatus::AboveNoise | SelectionStatus::AboveAngle) || count < rows {
             return decision;
         }
         let reason = format!(
@@ -61,7 +61,7 @@ impl Pass<'_, '_> {
             counted(count, "source"),
             counted(rows, "equation")
         );
-        Decision { status: Status::NothingLeft, reason, ..decision }
+        Decision { status: SelectionStatus::NothingLeft, reason, ..decision }
     }
 
     /// Whether larger sets than those of `rankings` would change nothing: the accepted set is within the noise, or below the angle,
@@ -74,8 +74,8 @@ impl Pass<'_, '_> {
         let accepted = decision.larger.unwrap_or(decision.accepted);
         match decision.status {
             // The first size below the angle is taken, whatever comes after it.
-            Status::BelowAngle => true,
-            Status::WithinNoise if rankings.len() > accepted + BEYOND => {
+            SelectionStatus::BelowAngle => true,
+            SelectionStatus::WithinNoise if rankings.len() > accepted + BEYOND => {
                 let criteria: Vec<f64> =
                     rankings[accepted..].iter().map(|ranking| self.score(ranking).criterion).collect();
                 criteria.windows(2).all(|pair| pair[1] > pair[0])
@@ -99,7 +99,7 @@ impl Pass<'_, '_> {
         let Some((accepted, reason)) = without_negligible(problem, state, rankings, decision.accepted) else {
             return decision;
         };
-        let status = if within(accepted) { Status::WithinNoise } else { Status::AboveNoise };
+        let status = if within(accepted) { SelectionStatus::WithinNoise } else { SelectionStatus::AboveNoise };
         Decision { accepted, status, reason, larger: Some(decision.accepted) }
     }
 
@@ -140,7 +140,7 @@ fn within_noise(system: &System, rankings: &[SizeRanking], scores: &[Score], fir
         reason += "; more than the noise asks for, on strong evidence";
     }
     reason += &confirmation(system, rankings, accepted);
-    Decision { accepted, status: Status::WithinNoise, reason, larger: None }
+    Decision { accepted, status: SelectionStatus::WithinNoise, reason, larger: None }
 }
 
 /// What leaving out each run says of the accepted set against the next smaller one.
@@ -174,7 +174,7 @@ fn above_noise(scores: &[Score]) -> Decision {
         scale.sqrt(),
         counted(scores[accepted].count, "source")
     );
-    Decision { accepted, status: Status::AboveNoise, reason, larger: None }
+    Decision { accepted, status: SelectionStatus::AboveNoise, reason, larger: None }
 }
 
 /// The first set below the angle of the settings, else the one with the smallest angle.
@@ -193,7 +193,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
             counted(count, "source"),
             significant(angle(&rankings[accepted]), 3)
         );
-        return Decision { accepted, status: Status::BelowAngle, reason, larger: None };
+        return Decision { accepted, status: SelectionStatus::BelowAngle, reason, larger: None };
     }
     let accepted =
         (0..rankings.len()).min_by(|&a, &b| angle(&rankings[a]).total_cmp(&angle(&rankings[b]))).unwrap_or(0);
@@ -205,7 +205,7 @@ fn by_angle(problem: &Problem<'_>, state: &IdentificationState, rankings: &[Size
         names.join(", "),
         significant(angle(&rankings[accepted]), 3)
     );
-    Decision { accepted, status: Status::AboveAngle, reason, larger: None }
+    Decision { accepted, status: SelectionStatus::AboveAngle, reason, larger: None }
 }
 
 /// Angle in degrees between `b` and `A_S c`: `asin(|A_S c - b| / |b|)`.

@@ -36,14 +36,14 @@ impl Kind {
 
 /// The part of a record that is used, in its own time; open at both ends unless they are given.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Part {
+pub struct TimeSpan {
     /// First instant, s.
     pub start_s: Option<f64>,
     /// Last instant, s.
     pub end_s: Option<f64>,
 }
 
-impl Part {
+impl TimeSpan {
     /// Numbers of the samples at `time` (s, rising) that lie in it; a hundredth of a step beside an end still does.
     pub fn samples(&self, time: &[f64]) -> Range<usize> {
         let step = if time.len() > 1 { (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64 } else { 0.0 };
@@ -66,7 +66,7 @@ mod tests {
     #[test]
     fn a_part_holds_the_samples_at_its_ends() {
         let time: Vec<f64> = (0..11).map(|n| 0.1 * f64::from(n)).collect();
-        let part = |start_s, end_s| Part { start_s, end_s }.samples(&time);
+        let part = |start_s, end_s| TimeSpan { start_s, end_s }.samples(&time);
         assert_eq!(part(None, None), 0..11);
         assert_eq!(part(Some(0.3), Some(0.7)), 3..8);
         assert_eq!(part(Some(0.31), None), 4..11);

@@ -40,7 +40,7 @@ mod zero;
 pub use channel::{Channel, ChannelName, Quantity, Unit};
 pub use finding::{Finding, Flag};
 pub use fit::{ChannelFit, FitError, HarmonicFit, fit};
-pub use kind::{Kind, Part};
+pub use kind::{Kind, TimeSpan};
 pub use ramps::steady_part;
 pub use ratio::MeasuredRatio;
 pub use record::{Record, RecordError};

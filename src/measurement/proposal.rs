@@ -4,7 +4,7 @@
 //! decay, from where the force ends. Force that acts all the time on few lines: steady. Everything else: transient.
 
 use super::channel::Quantity;
-use super::kind::{Kind, Part};
+use super::kind::{Kind, TimeSpan};
 use super::record::Record;
 use crate::math::spectrum::Spectrum;
 use crate::math::statistics::mean;
@@ -39,8 +39,8 @@ const ENOUGH: usize = 8192;
 pub(crate) struct Proposal {
     /// Kind.
     pub kind: Kind,
-    /// Part to be used.
-    pub part: Part,
+    /// TimeSpan to be used.
+    pub part: TimeSpan,
     /// Why, in one sentence with numbers and units.
     pub reason: String,
 }
@@ -114,15 +114,15 @@ fn after_force(record: &Record, motion: &[f64], [first, last]: [usize; 2], time:
             contact * duration,
             time(first)
         );
-        return Proposal { kind: Kind::Transient, part: Part::default(), reason };
+        return Proposal { kind: Kind::Transient, part: TimeSpan::default(), reason };
     }
     let left = motion.get(last + 1).copied().unwrap_or(0.0) / motion.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     if left > 0.1 {
         let reason = format!("the force ends at {end:.3} s and the motion dies away from there");
-        return Proposal { kind: Kind::Decay, part: Part { start_s: Some(end), end_s: None }, reason };
+        return Proposal { kind: Kind::Decay, part: TimeSpan { start_s: Some(end), end_s: None }, reason };
     }
     let reason = format!("the force acts until {end:.3} s and the motion ends with it");
-    Proposal { kind: Kind::Transient, part: Part::default(), reason }
+    Proposal { kind: Kind::Transient, part: TimeSpan::default(), reason }
 }
 
 /// No force: the motion dies away, or is driven by what was not measured.
@@ -141,7 +141,7 @@ fn free(record: &Record, motion: &[f64], time: impl Fn(usize) -> f64) -> Proposa
             100.0 * end / most,
             time(start)
         );
-        return Proposal { kind: Kind::Decay, part: Part { start_s: from, end_s: None }, reason };
+        return Proposal { kind: Kind::Decay, part: TimeSpan { start_s: from, end_s: None }, reason };
     }
     driven(record, Quantity::Acceleration)
 }
@@ -159,7 +159,7 @@ fn driven(record: &Record, quantity: Quantity) -> Proposal {
     let (kind, word) = if share >= PERIODIC { (Kind::Steady, "periodic") } else { (Kind::Transient, "not periodic") };
     let reason =
         format!("the {what} is {word}: {:.0} % of its power lies on one frequency and its multiples", 100.0 * share);
-    Proposal { kind, part: Part::default(), reason }
+    Proposal { kind, part: TimeSpan::default(), reason }
 }
 
 /// Share of a channel's power within two lines of its largest line and of the multiples of that.

@@ -126,6 +126,6 @@ pub(super) fn blocks(record: &Record, fit: &HarmonicFit) -> Option<(Vec<f64>, Ve
 }
 
 /// The steady part of a record whose force is run up or down; none where it is steady from end to end.
-pub fn steady_part(record: &Record, fit: &HarmonicFit) -> Option<super::kind::Part> {
-    find(record, fit).map(|ramps| super::kind::Part { start_s: ramps.up, end_s: ramps.down })
+pub fn steady_part(record: &Record, fit: &HarmonicFit) -> Option<super::kind::TimeSpan> {
+    find(record, fit).map(|ramps| super::kind::TimeSpan { start_s: ramps.up, end_s: ramps.down })
 }

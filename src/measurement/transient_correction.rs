@@ -6,7 +6,7 @@
 use super::channel::{Channel, Quantity};
 use super::even_steps::{evened, off_even};
 use super::finding::{Finding, Flag};
-use super::kind::{Kind, Part};
+use super::kind::{Kind, TimeSpan};
 use super::proposal::release;
 use super::record::Record;
 use super::run::ChannelCorrection;
@@ -46,7 +46,7 @@ impl TransientRun {
         corrections: &[ChannelCorrection],
     ) -> Result<Self, TransientRunError> {
         let released_s = release_of(&label, &record);
-        let part = Part { start_s: label.part.start_s.or(released_s), ..label.part };
+        let part = TimeSpan { start_s: label.part.start_s.or(released_s), ..label.part };
         let samples = part.samples(record.time());
         if samples.len() < FEWEST_SAMPLES {
             let (first_s, last_s) = (record.time()[0], record.time()[record.len() - 1]);
@@ -149,7 +149,7 @@ fn windowed(run: &TransientRun, constant: f64) -> Finding {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use crate::measurement::{Kind, Part};
+    use crate::measurement::{Kind, TimeSpan};
     use std::f64::consts::TAU;
 
     fn channel(quantity: Quantity) -> Channel {
@@ -163,7 +163,7 @@ mod tests {
     }
 
     fn label(start_s: Option<f64>, end_s: Option<f64>) -> TransientLabel {
-        TransientLabel { kind: Kind::Decay, part: Part { start_s, end_s }, enabled: true, ..Default::default() }
+        TransientLabel { kind: Kind::Decay, part: TimeSpan { start_s, end_s }, enabled: true, ..Default::default() }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::channel::{Channel, Quantity};
 use super::finding::Finding;
-use super::kind::{Kind, Part};
+use super::kind::{Kind, TimeSpan};
 use super::record::Record;
 use crate::math::decimation::{decimated, kept};
 use std::ops::Range;
@@ -18,7 +18,7 @@ pub struct TransientRun {
     /// Decay or transient.
     pub kind: Kind,
     /// The part that is used, as the project says it.
-    pub part: Part,
+    pub part: TimeSpan,
     /// Label of the force level.
     pub level: Option<i64>,
     /// Label of the session: runs without re-assembly between them.
@@ -40,7 +40,7 @@ pub struct TransientLabel {
     /// Decay or transient.
     pub kind: Kind,
     /// The part that is used.
-    pub part: Part,
+    pub part: TimeSpan,
     /// Label of the force level.
     pub level: Option<i64>,
     /// Label of the session.

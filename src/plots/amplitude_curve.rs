@@ -7,7 +7,7 @@ use crate::diagnosis::records::amplitude::AmplitudePoint;
 use crate::diagnosis::records::compare::ModeCurve;
 use crate::display::units::{self, Damping};
 use crate::display::{format, words};
-use crate::effects::{Effect, Part};
+use crate::effects::{Effect, ForcePart};
 use crate::measurement::Quantity;
 
 /// Points from which on a curve says something.
@@ -21,7 +21,7 @@ const MICROSLIP: f64 = 0.5;
 
 /// Laws and their slopes of `ln zeta` over `ln A`, in rising order: guides for the curve.
 pub(crate) fn slopes() -> Vec<(Effect, f64)> {
-    let mut slopes = Effect::amplitude_powers(Part::Damping);
+    let mut slopes = Effect::amplitude_powers(ForcePart::Damping);
     slopes.push((Effect::MICROSLIP, MICROSLIP));
     slopes.sort_by(|a, b| a.1.total_cmp(&b.1));
     slopes

@@ -5,7 +5,7 @@ use super::style::Palette;
 use crate::display::format;
 use crate::exchange::Project;
 use crate::measurement::Quantity as Measured;
-use crate::response::frequency_response::Quantity;
+use crate::response::frequency_response::ResponseForm;
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ const ALONE: f64 = 0.02;
 
 /// A receptance between two DOFs on a range of frequencies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Response {
+pub struct ReceptanceCurve {
     /// DOF whose displacement is divided by the force.
     pub response: usize,
     /// DOF at which the force acts.
@@ -71,9 +71,9 @@ pub(crate) struct Diagram<'a> {
     /// The project, for labels and measured points.
     pub project: &'a Project,
     /// The model's curve.
-    pub response: &'a Response,
+    pub response: &'a ReceptanceCurve,
     /// What is divided by the force.
-    pub quantity: Quantity,
+    pub quantity: ResponseForm,
 }
 
 impl Diagram<'_> {
@@ -90,9 +90,9 @@ impl Diagram<'_> {
 
     fn name(&self) -> &'static str {
         match self.quantity {
-            Quantity::Receptance => "Receptance",
-            Quantity::Mobility => "Mobility",
-            Quantity::Accelerance => "Accelerance",
+            ResponseForm::Receptance => "Receptance",
+            ResponseForm::Mobility => "Mobility",
+            ResponseForm::Accelerance => "Accelerance",
         }
     }
 

@@ -2,10 +2,10 @@
 
 use super::figure::{Axis, Figure, Look};
 use super::style::Palette;
-use crate::balance::loops::Loop;
+use crate::balance::loops::LoopRecord;
 
 /// The loop of one record with the model's force (N) on the same samples.
-pub(crate) fn figure(palette: &Palette, one: &Loop, model: &[f64]) -> Figure {
+pub(crate) fn figure(palette: &Palette, one: &LoopRecord, model: &[f64]) -> Figure {
     let over = |force: &[f64]| one.d.iter().zip(force).map(|(d, f)| [*d, *f]).collect::<Vec<[f64; 2]>>();
     let [measured, modelled] = [&one.force, model].map(|force: &[f64]| one.work(force));
     let title = format!("{}: work measured {measured:.4} J, model {modelled:.4} J", one.file);

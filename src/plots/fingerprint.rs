@@ -4,7 +4,7 @@ use super::figure::{Axis, Figure, Label, Look, Ticks};
 use super::style::Palette;
 use crate::diagnosis::candidates::fingerprint_plot::{Against, Measure, Print, PrintPoint};
 use crate::display::format;
-use crate::effects::{Effect, Part};
+use crate::effects::{Effect, ForcePart};
 
 /// Title of the plot and what the slope says, in one line each.
 pub(crate) fn words(print: &Print) -> (String, String) {
@@ -28,10 +28,10 @@ pub(crate) fn words(print: &Print) -> (String, String) {
 }
 
 /// The part of the force whose powers of the abscissa are shown, on logarithmic axes.
-fn part(print: &Print) -> Option<Part> {
+fn part(print: &Print) -> Option<ForcePart> {
     match print.measure {
-        Measure::Damping => Some(Part::Damping),
-        Measure::Stiffness => Some(Part::Stiffness),
+        Measure::Damping => Some(ForcePart::Damping),
+        Measure::Stiffness => Some(ForcePart::Stiffness),
         Measure::Phase | Measure::Ratio => None,
     }
 }
@@ -85,7 +85,7 @@ fn cloud(points: &[PrintPoint]) -> ([f64; 2], [f64; 2]) {
 const HEADROOM: f64 = 0.30;
 
 /// Faint lines with the powers of simple laws through the middle of the cloud, no further up and down than it reaches.
-fn laws(mut figure: Figure, palette: &Palette, print: &Print, part: Part) -> Figure {
+fn laws(mut figure: Figure, palette: &Palette, print: &Print, part: ForcePart) -> Figure {
     let ([x, y], ends) = cloud(&print.points);
     let heights = print.points.iter().map(|p| p.y.log10());
     let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);

@@ -1,7 +1,7 @@
 //! The forward model of what was identified, as the result shows it: frequency responses and steady states.
 
-use super::bode::Response;
-use super::hysteresis::{self, Loop};
+use super::bode::ReceptanceCurve;
+use super::hysteresis::{self, HysteresisPlot};
 use crate::balance::expansion::Acting;
 use crate::balance::{Expander, Measured};
 use crate::effects::{Source, State};
@@ -94,13 +94,13 @@ pub fn receptance(
     omega: Vec<f64>,
     [response, excitation]: [usize; 2],
     control: &crate::control::Control,
-) -> Result<Response, String> {
+) -> Result<ReceptanceCurve, String> {
     let stiffness = DynamicStiffness::new(structure, sources).map_err(|e| e.to_string())?;
-    let quantity = crate::response::frequency_response::Quantity::Receptance;
+    let quantity = crate::response::frequency_response::ResponseForm::Receptance;
     let values =
         crate::response::frequency_response::direct(&stiffness, response, excitation, &omega, quantity, control)
             .map_err(|e| e.to_string())?;
-    Ok(Response { response, excitation, omega, receptance: values })
+    Ok(ReceptanceCurve { response, excitation, omega, receptance: values })
 }
 
 /// The motion of every DOF in every run at its fundamental, m or rad, expanded with the damping that was identified.
@@ -124,7 +124,7 @@ pub fn motions(p: &Project, outcome: Option<&Outcome>) -> Result<Vec<Vec<c64>>, 
 ///
 /// # Errors
 /// One line: no matrices, or an undamped resonance.
-pub fn run_loops(p: &Project, outcome: &Outcome, run: usize) -> Result<Vec<Loop>, String> {
+pub fn run_loops(p: &Project, outcome: &Outcome, run: usize) -> Result<Vec<HysteresisPlot>, String> {
     let r = p.runs.get(run).ok_or("there is no such run")?;
     let stiffness = DynamicStiffness::new(&p.structure, &acting(p, outcome)).map_err(|e| e.to_string())?;
     let mut force = vec![c64::new(0.0, 0.0); p.structure.len()];

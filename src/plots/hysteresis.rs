@@ -14,7 +14,7 @@ const SAMPLES: usize = 256;
 
 /// A closed loop: displacement, m, and force, N.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Loop {
+pub struct HysteresisPlot {
     /// Title.
     pub name: String,
     /// Points of the model's loop.
@@ -26,7 +26,7 @@ pub struct Loop {
 }
 
 /// Loops of one run: the exciter's and one a source, for the model's amplitudes `x` of displacement (m) at the fundamental.
-pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<Loop> {
+pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Vec<HysteresisPlot> {
     let Some(r) = p.runs.get(run) else { return Vec::new() };
     let omega = r.fit.omega;
     let mut loops = Vec::new();
@@ -39,7 +39,7 @@ pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Ve
             let turn = (0..order).fold(c64::new(1.0, 0.0), |z, _| z * c64::new(0.0, omega));
             Some(ellipse(*m.amplitudes.first()? / turn, f))
         });
-        loops.push(Loop {
+        loops.push(HysteresisPlot {
             name: format!("Exciter at DOF {}", force.channel.label),
             model: x.get(dof).map_or_else(Vec::new, |&x| ellipse(x, f)),
             measured: measured.unwrap_or_default(),
@@ -58,7 +58,7 @@ pub(crate) fn loops(p: &Project, run: usize, x: &[c64], acting: &[Source]) -> Ve
             let place = source.place.cell(&p.structure);
             let rotation = matches!(&source.place, Place::Dofs(dofs) if is_rotation(p, dofs));
             let name = format!("{} {place}", source.effect.noun());
-            loops.push(Loop { name, model, measured: Vec::new(), rotation });
+            loops.push(HysteresisPlot { name, model, measured: Vec::new(), rotation });
         }
     }
     loops
@@ -83,7 +83,7 @@ pub(crate) fn area(points: &[[f64; 2]]) -> f64 {
     points.windows(2).map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
 }
 
-impl Loop {
+impl HysteresisPlot {
     /// What it encloses, in words: `model 1.23 mJ, measured 1.25 mJ`.
     pub fn energies(&self) -> String {
         if self.measured.is_empty() {

@@ -15,7 +15,7 @@ use crate::plots::bode::Diagram;
 use crate::plots::heatmap::{HeatMap, occupied};
 use crate::plots::style::Palette;
 use crate::plots::{angle, energy, forward};
-use crate::response::frequency_response::Quantity as Response;
+use crate::response::frequency_response::ResponseForm as Response;
 use std::f64::consts::TAU;
 
 /// Adds them.

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 /// What is divided by the force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Quantity {
+pub enum ResponseForm {
     /// Displacement over force, m/N.
     Receptance,
     /// Velocity over force, m/(N s).
@@ -26,7 +26,7 @@ pub enum Quantity {
     Accelerance,
 }
 
-impl Quantity {
+impl ResponseForm {
     /// Ratio to the receptance at `omega` (rad/s): 1, `i omega`, `-omega^2`.
     pub fn factor(self, omega: f64) -> c64 {
         match self {
@@ -55,7 +55,7 @@ pub fn direct(
     response: usize,
     excitation: usize,
     omega: &[f64],
-    quantity: Quantity,
+    quantity: ResponseForm,
     control: &Control,
 ) -> Result<Vec<c64>, DynamicStiffnessError> {
     let mut values = Vec::with_capacity(omega.len());

@@ -2,7 +2,7 @@
 
 use crate::effects::Effect;
 use crate::effects::source::SourceError;
-use crate::exchange::project::{Problem, ProjectError};
+use crate::exchange::project::{ProjectError, TableProblem};
 use crate::structure::StructureError;
 
 /// Why a change was refused; the document is as it was.
@@ -50,19 +50,19 @@ pub enum Refusal {
     #[error(transparent)]
     Structure(#[from] StructureError),
     #[error(transparent)]
-    Pattern(Box<Problem>),
+    Pattern(Box<TableProblem>),
     #[error(transparent)]
     Project(#[from] ProjectError),
 }
 
 impl From<SourceError> for Refusal {
     fn from(error: SourceError) -> Self {
-        Problem::Source(Box::new(error)).into()
+        TableProblem::Source(Box::new(error)).into()
     }
 }
 
-impl From<Problem> for Refusal {
-    fn from(problem: Problem) -> Self {
+impl From<TableProblem> for Refusal {
+    fn from(problem: TableProblem) -> Self {
         Self::Pattern(Box::new(problem))
     }
 }

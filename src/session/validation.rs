@@ -10,7 +10,7 @@ use crate::diagnosis::component::{Loops, compare_component, diagnose_component};
 use crate::diagnosis::diagnose::{diagnose_without, faults_of_channels};
 use crate::diagnosis::records::compare::OneRecord;
 use crate::diagnosis::records::{
-    self, RecordComparison, RecordError, Records, agreement_with_records, compare_records, diagnose_records,
+    self, RecordComparison, RecordDiagnosisError, Records, agreement_with_records, compare_records, diagnose_records,
 };
 use crate::diagnosis::residual::comparison::{ChannelComparison, RunComparison};
 use crate::diagnosis::result::{Early, RecordErrors, Step};
@@ -25,7 +25,7 @@ use crate::structure::StructureKind;
 pub enum ValidationError {
     /// Records of a structure.
     #[error(transparent)]
-    Records(#[from] RecordError),
+    Records(#[from] RecordDiagnosisError),
     /// Loops of one component.
     #[error(transparent)]
     Component(#[from] ComponentError),
@@ -58,7 +58,7 @@ fn loops(project: &Project) -> Result<Loops, ComponentError> {
     Loops::new(&project.structure, &project.sources, &project.transient_runs)
 }
 
-fn records(project: &Project) -> Result<Records<'_>, RecordError> {
+fn records(project: &Project) -> Result<Records<'_>, RecordDiagnosisError> {
     Records::new(&project.structure, &project.sources, &project.transient_runs)
 }
 

@@ -2,7 +2,7 @@
 //! what solvers are told of friction and of infinite slopes.
 
 use super::{cases, rich, sampled};
-use dashpot::effects::{Constant, Effect, Kind, Manner, Motion, Part, Place, Range, Source};
+use dashpot::effects::{Constant, Effect, ForcePart, Kind, Manner, Motion, Place, Range, Source};
 use faer::c64;
 
 fn scale(force: &[f64]) -> f64 {
@@ -123,7 +123,7 @@ fn exponents_are_those_of_the_force() {
             let mut first = [c64::new(0.0, 0.0)];
             dashpot::effects::Sampling::new(4096).analyse(&force, &mut first);
             let ratio = first[0] / amplitude;
-            let value = if stated.part == Part::Damping { ratio.im / omega } else { ratio.re };
+            let value = if stated.part == ForcePart::Damping { ratio.im / omega } else { ratio.re };
             value.abs().ln()
         };
         let (x, w) = (5e-4, 60.0);
@@ -252,7 +252,7 @@ fn every_law_has_a_symbol_and_an_example() {
 #[test]
 fn each_power_of_the_amplitude_has_its_plainest_law() {
     let damping = [(Effect::Coulomb, -1.0), (Effect::Viscous, 0.0), (Effect::Quadratic, 1.0)];
-    assert_eq!(Effect::amplitude_powers(Part::Damping), damping);
+    assert_eq!(Effect::amplitude_powers(ForcePart::Damping), damping);
     let stiffness = [(Effect::Stiffness, 0.0), (Effect::CubicStiffness, 2.0)];
-    assert_eq!(Effect::amplitude_powers(Part::Stiffness), stiffness);
+    assert_eq!(Effect::amplitude_powers(ForcePart::Stiffness), stiffness);
 }

@@ -3,7 +3,7 @@
 use super::energy_support::*;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
-use dashpot::identify::{Outcome, Status, identify};
+use dashpot::identify::{Outcome, SelectionStatus, identify};
 use dashpot::structure::damped_modes::damped_modes;
 use faer::Mat;
 
@@ -44,7 +44,7 @@ fn table_5_3_case_1() {
     assert_step(&outcome, &sources, &[13, 19], &[0.1506, 0.0590], 0.405, 6e-5);
     assert_step(&outcome, &sources, &[5, 15, 17], &[0.2116, 0.1272, 0.0547], 0.125, 6e-5);
     assert_step(&outcome, &sources, &[3, 5, 13, 17], &[0.1, 0.1, 0.1, 0.1], 0.0, 1e-5);
-    assert_eq!((outcome.accepted_step().count, outcome.status), (4, Status::BelowAngle));
+    assert_eq!((outcome.accepted_step().count, outcome.status), (4, SelectionStatus::BelowAngle));
     assert!((outcome.sources.iter().map(|s| s.energy_percent).sum::<f64>() - 100.0).abs() < 1e-9);
 }
 

@@ -1,6 +1,6 @@
 //! Where a decay begins in a record that begins before it.
 
-use dashpot::measurement::{Channel, Flag, Kind, Part, Quantity, Record, TransientLabel, TransientRun};
+use dashpot::measurement::{Channel, Flag, Kind, Quantity, Record, TimeSpan, TransientLabel, TransientRun};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ fn begun(
     quantity: Quantity,
     motion: &dyn Fn(f64) -> f64,
     force: Option<&dyn Fn(f64) -> f64>,
-    part: Part,
+    part: TimeSpan,
 ) -> (f64, bool) {
     let time: Vec<f64> = (0..4000).map(|n| 0.001 * f64::from(n)).collect();
     let signal = |y: &dyn Fn(f64) -> f64| time.iter().map(|&t| y(t)).collect::<Vec<f64>>();
@@ -32,7 +32,7 @@ fn rest_a_drive_and_a_blow_before_a_release_are_left_out() {
     let rings = |t: f64| if t < 2.0 { sine(t) } else { sine(t) * (2.0 * (2.0 - t)).exp() };
     let struck = |t: f64| if t < 0.5 { 0.0 } else { sine(t) * (0.5 - t).exp() };
     let hit = |t: f64| if (0.5..0.51).contains(&t) { 1.0 } else { 0.0 };
-    let whole = Part::default();
+    let whole = TimeSpan::default();
     for (motion, force, [from, to]) in [
         (&waits as &dyn Fn(f64) -> f64, None, [1.0, 1.2]),
         (&rings, None, [1.96, 2.08]),
@@ -54,7 +54,7 @@ fn a_decay_that_begins_at_once_keeps_its_beginning() {
     let beats = |t: f64| (TAU * 1.2 * t).cos() * sine(t) * (-0.1 * t).exp();
     let stops = |t: f64| sine(t) * (1.0 - 0.3 * t).max(0.0);
     for motion in [&decay as &dyn Fn(f64) -> f64, &slow, &beats, &stops] {
-        assert_eq!(begun(Quantity::Acceleration, motion, None, Part::default()), (0.0, false));
+        assert_eq!(begun(Quantity::Acceleration, motion, None, TimeSpan::default()), (0.0, false));
     }
 }
 
@@ -62,6 +62,6 @@ fn a_decay_that_begins_at_once_keeps_its_beginning() {
 #[test]
 fn a_given_start_stands() {
     let waits = |t: f64| if t < 1.0 { 0.0 } else { sine(t) * (1.0 - t).exp() };
-    let part = Part { start_s: Some(0.5), end_s: None };
+    let part = TimeSpan { start_s: Some(0.5), end_s: None };
     assert_eq!(begun(Quantity::Acceleration, &waits, None, part), (0.5, false));
 }

@@ -4,7 +4,7 @@ use crate::common::models::{cantilever, oscillator, source, whole};
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Place, Source};
 use dashpot::response::dynamic_stiffness::{DynamicStiffness, DynamicStiffnessError};
-use dashpot::response::frequency_response::{Quantity, direct, half_power, modal};
+use dashpot::response::frequency_response::{ResponseForm, direct, half_power, modal};
 use dashpot::response::linear_matrices::LinearMatrices;
 use dashpot::response::steady_state::steady_state;
 use dashpot::structure::SystemMatrices;
@@ -29,7 +29,7 @@ fn viscous_by_factorisation_and_by_modes() {
     assert!(constant.others.is_empty());
     let found = damped_modes(constant.mass.as_ref(), constant.stiffness.as_ref(), constant.viscous.as_ref()).unwrap();
     for omega in [5.0, 70.0, 411.0, 5000.0] {
-        let one = direct(&z, 8, 2, &[omega], Quantity::Receptance, &Control::unattended()).unwrap()[0];
+        let one = direct(&z, 8, 2, &[omega], ResponseForm::Receptance, &Control::unattended()).unwrap()[0];
         let other = modal(&found, 8, 2, omega).unwrap();
         assert!((one - other).norm() < 1e-9 * one.norm(), "{omega}: {one} {other}");
     }
@@ -74,9 +74,9 @@ fn one_degree_of_freedom_at_its_resonance() {
     let structure = oscillator(2.0, 800.0);
     let z = DynamicStiffness::new(&structure, &[source(Effect::Viscous, &[0], &[4.0])]).unwrap();
     let at_resonance = |q| direct(&z, 0, 0, &[20.0], q, &Control::unattended()).unwrap()[0];
-    assert!((at_resonance(Quantity::Receptance) - c64::new(0.0, -1.0 / 80.0)).norm() < 1e-15);
-    assert!((at_resonance(Quantity::Mobility) - c64::new(0.25, 0.0)).norm() < 1e-14);
-    assert!((at_resonance(Quantity::Accelerance) - c64::new(0.0, 5.0)).norm() < 1e-13);
+    assert!((at_resonance(ResponseForm::Receptance) - c64::new(0.0, -1.0 / 80.0)).norm() < 1e-15);
+    assert!((at_resonance(ResponseForm::Mobility) - c64::new(0.25, 0.0)).norm() < 1e-14);
+    assert!((at_resonance(ResponseForm::Accelerance) - c64::new(0.0, 5.0)).norm() < 1e-13);
 }
 
 #[test]
@@ -85,7 +85,8 @@ fn half_power_points_give_the_damping_back() {
     let omega: Vec<f64> = (0..400).map(|k| 15.0 + 0.025 * f64::from(k)).collect();
     let half_power_of = |source: Source| {
         let z = DynamicStiffness::new(&structure, &[source]).unwrap();
-        half_power(&omega, &direct(&z, 0, 0, &omega, Quantity::Receptance, &Control::unattended()).unwrap()).unwrap()
+        half_power(&omega, &direct(&z, 0, 0, &omega, ResponseForm::Receptance, &Control::unattended()).unwrap())
+            .unwrap()
     };
     // Exact for hysteretic damping, at any loss factor; for viscous damping to second order in zeta.
     let hysteretic = half_power_of(source(Effect::Hysteretic, &[0], &[800.0 * 0.07]));

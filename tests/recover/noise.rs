@@ -4,7 +4,7 @@ use super::points::five_points;
 use super::support::*;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Source};
-use dashpot::identify::{Form, Settings, Status, identify};
+use dashpot::identify::{Form, SelectionStatus, Settings, identify};
 use dashpot::measurement::Run;
 use dashpot::structure::Structure;
 
@@ -22,7 +22,7 @@ fn scores(structure: &Structure, runs: &[Run], noise: f64, form: Form) -> (Vec<[
             let outcome = identify(structure, &sources, &runs, &settings, &Control::unattended()).unwrap();
             assert_eq!(outcome.form, form);
             let places: Vec<usize> = outcome.accepted_step().sources.iter().map(|e| e.source).collect();
-            right += usize::from(places == [6, 8] && outcome.status == Status::WithinNoise);
+            right += usize::from(places == [6, 8] && outcome.status == SelectionStatus::WithinNoise);
             let step = outcome.steps.iter().find(|s| s.count == 2).unwrap();
             // Where noise has put another set first, there is no coefficient of the true one to score.
             if step.sources.iter().map(|e| e.source).collect::<Vec<_>>() != [6, 8] {

@@ -3,7 +3,7 @@
 use super::support::*;
 use dashpot::control::Control;
 use dashpot::effects::{Effect, Motion, Source};
-use dashpot::identify::{Settings, Status, identify};
+use dashpot::identify::{SelectionStatus, Settings, identify};
 use dashpot::measurement::{Quantity, Run};
 use dashpot::structure::Structure;
 use dashpot::structure::points::PointParameters;
@@ -105,10 +105,10 @@ fn as_many_sources_as_runs_leave_nothing_to_judge_by() {
     for runs in [runs.clone(), with_noise(&runs, 1e-3, 1)] {
         let outcome = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
         if accepted(&outcome).len() == 2 {
-            assert_eq!(outcome.status, Status::NothingLeft, "{}", outcome.reason);
+            assert_eq!(outcome.status, SelectionStatus::NothingLeft, "{}", outcome.reason);
             assert!(outcome.reason.contains("nothing is left to judge them by"), "{}", outcome.reason);
         }
     }
     let exact = identify(&five_points(), &candidates(), &runs, &all_sets(), &Control::unattended()).unwrap();
-    assert_eq!(exact.status, Status::NothingLeft);
+    assert_eq!(exact.status, SelectionStatus::NothingLeft);
 }

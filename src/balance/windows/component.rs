@@ -8,7 +8,7 @@
 //! over one that does not is taken out with the mean force. Noise of the force acts through the velocity.
 
 use super::window_rows::{WindowError, WindowRows};
-use crate::balance::loops::{ComponentError, Loop};
+use crate::balance::loops::{ComponentError, LoopRecord};
 use crate::effects::Source;
 use crate::measurement::TransientRun;
 use crate::structure::Structure;
@@ -24,7 +24,7 @@ pub(super) fn rows(
     columns: &[Source],
     run: &TransientRun,
 ) -> Result<WindowRows, WindowError> {
-    let one = Loop::new(0, run)?;
+    let one = LoopRecord::new(0, run)?;
     let period = 1.0 / (one.frequency_hz * one.step);
     let count = (one.d.len() as f64 / period).floor() as usize;
     if count < 1 {

@@ -1,7 +1,7 @@
 //! The model's forces against the measured ones, record by record and by part of time.
 
 use super::fit::predicted;
-use crate::balance::loops::{ComponentError, Loop, Loops};
+use crate::balance::loops::{ComponentError, LoopRecord, Loops};
 use crate::diagnosis::records::compare::{OneRecord, RecordComparison, RecordPart};
 use crate::effects::Source;
 use crate::math::statistics::root_mean_square;
@@ -15,7 +15,7 @@ const PARTS: usize = 8;
 /// # Errors
 /// [`ComponentError::NoTimeDomain`] for laws without a force in time.
 pub fn compare_component(loops: &Loops, effects: &[Source]) -> Result<RecordComparison, ComponentError> {
-    let compare_loop = |l: &Loop| -> Result<OneRecord, ComponentError> {
+    let compare_loop = |l: &LoopRecord| -> Result<OneRecord, ComponentError> {
         let mut model = predicted(loops, l, effects)?;
         // The zero of the force cell is not known.
         let mean = l.force.iter().zip(&model).map(|(f, m)| f - m).sum::<f64>() / model.len() as f64;
@@ -29,7 +29,7 @@ pub fn compare_component(loops: &Loops, effects: &[Source]) -> Result<RecordComp
 
 /// What noise leaves of the force of a record beside the right law, N: that of the force cell, and that of the displacement through the
 /// law, `F(d + e) - F(d)` for a draw of it, whatever the law remembers.
-fn noise_left(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<f64, ComponentError> {
+fn noise_left(loops: &Loops, one: &LoopRecord, effects: &[Source]) -> Result<f64, ComponentError> {
     let [still, moved] = [predicted(loops, one, effects)?, predicted(loops, &one.jittered(), effects)?];
     let apart: Vec<f64> = still.iter().zip(&moved).map(|(a, b)| b - a).collect();
     let mean = apart.iter().sum::<f64>() / apart.len() as f64;
@@ -39,11 +39,11 @@ fn noise_left(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<f64, Comp
 
 /// What noise leaves over the size of the force, root mean square over the records.
 pub(super) fn noise_floor(loops: &Loops, effects: &[Source]) -> Result<f64, ComponentError> {
-    let noise_share = |one: &Loop| Ok::<f64, ComponentError>(noise_left(loops, one, effects)? / one.size());
+    let noise_share = |one: &LoopRecord| Ok::<f64, ComponentError>(noise_left(loops, one, effects)? / one.size());
     Ok(root_mean_square(&loops.list.iter().map(noise_share).collect::<Result<Vec<f64>, _>>()?))
 }
 
-fn compared(one: &Loop, model: Vec<f64>, noise: f64) -> OneRecord {
+fn compared(one: &LoopRecord, model: Vec<f64>, noise: f64) -> OneRecord {
     let left: Vec<f64> = one.force.iter().zip(&model).map(|(f, m)| f - m).collect();
     let (error, floor) = (root_mean_square(&left) / one.size(), noise / one.size());
     let length = left.len() / PARTS;

@@ -1,6 +1,6 @@
 //! Laws fitted to the forces of all loops: Levenberg and Marquardt over their parameters, the zero of every force cell free.
 
-use crate::balance::loops::{ComponentError, Loop, Loops};
+use crate::balance::loops::{ComponentError, LoopRecord, Loops};
 use crate::control::Control;
 use crate::diagnosis::records::variables::{at_variable, scales, slopes, variable};
 use crate::effects::{Parameter, Source};
@@ -46,7 +46,7 @@ pub(super) struct Ranked {
 }
 
 /// Force that the known sources and `effects` give, without the zero of the force cell.
-pub(super) fn predicted(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<Vec<f64>, ComponentError> {
+pub(super) fn predicted(loops: &Loops, one: &LoopRecord, effects: &[Source]) -> Result<Vec<f64>, ComponentError> {
     let mut sum: Vec<f64> = one.a.iter().map(|a| loops.mass * a).collect();
     for source in loops.known.iter().chain(effects) {
         let none = ComponentError::NoTimeDomain { law: source.effect.name() };
@@ -57,7 +57,7 @@ pub(super) fn predicted(loops: &Loops, one: &Loop, effects: &[Source]) -> Result
 }
 
 /// What is left of the force of a record, its mean taken out, over the size of the force; `parts` of the records only.
-fn left(loops: &Loops, one: &Loop, effects: &[Source]) -> Result<Vec<f64>, ComponentError> {
+fn left(loops: &Loops, one: &LoopRecord, effects: &[Source]) -> Result<Vec<f64>, ComponentError> {
     let model = predicted(loops, one, effects)?;
     let rest: Vec<f64> = one.force.iter().zip(&model).map(|(f, m)| f - m).collect();
     let (mean, unit) = (rest.iter().sum::<f64>() / rest.len() as f64, one.size() * (rest.len() as f64).sqrt());

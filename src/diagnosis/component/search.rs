@@ -205,7 +205,7 @@ impl Search<'_> {
 
     /// Relative error of the energy of the records, root mean square.
     fn energy_error(&self, fit: &Fitted) -> Result<f64, ComponentError> {
-        let relative_error = |one: &crate::balance::loops::Loop| -> Result<f64, ComponentError> {
+        let relative_error = |one: &crate::balance::loops::LoopRecord| -> Result<f64, ComponentError> {
             let (measured, model) = (one.work(&one.force), one.work(&predicted(self.loops, one, &fit.effects)?));
             Ok((model - measured) / measured)
         };

@@ -1,7 +1,7 @@
 //! Backward elimination: effects found early stood for others that were found later. Where the later ones are there, an earlier one may be
 //! needless, or no more than a special case of itself.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::search::{Search, SetsBySize};
@@ -14,7 +14,7 @@ pub(super) const WITHOUT: [usize; 2] = [4, 4];
 
 impl Search<'_> {
     /// A fit without those of its earlier effects that the last one has made needless, the others by the plainest law that does.
-    pub(super) fn pruned(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn pruned(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         let mut best = fit.clone();
         for k in (0..fit.effects.len().saturating_sub(1)).rev() {
             let mut fewer = best.clone();
@@ -37,7 +37,7 @@ impl Search<'_> {
 
     /// The effects before a mass or spring that was found last, on whole records, where they leave no more than noise there: what it explains
     /// beside them is an error of the masses and springs of the model. `None` where it is no such effect, or they leave more.
-    pub(super) fn without_constant(&self, by_size: &SetsBySize) -> Result<Option<SetsBySize>, RecordError> {
+    pub(super) fn without_constant(&self, by_size: &SetsBySize) -> Result<Option<SetsBySize>, RecordDiagnosisError> {
         let last = by_size.last.first().filter(|best| best.effects.len() > 1 && best.adds_constant());
         let Some(((level, before), earlier)) = last.and_then(|_| by_size.earlier.split_last()) else { return Ok(None) };
         if before.effects.is_empty() || self.control.is_late() {
@@ -55,13 +55,13 @@ impl Search<'_> {
         level: usize,
         start: &FittedRecords,
         best: &FittedRecords,
-    ) -> Result<Option<FittedRecords>, RecordError> {
+    ) -> Result<Option<FittedRecords>, RecordDiagnosisError> {
         let allowed = |e: &Source| e.parameters.iter().zip(e.effect.parameters()).all(|(v, p)| p.allows(*v));
         if !start.effects.iter().all(allowed) {
             return Ok(None);
         }
         let refitted = match self.fit(level, start, 1.0, PRUNING) {
-            Err(RecordError::Model { .. } | RecordError::Singular) => return Ok(None),
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => return Ok(None),
             other => other?,
         };
         let unit = scale(best);

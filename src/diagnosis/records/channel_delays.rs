@@ -10,7 +10,7 @@
 //! proportion to the frequency, which no stiffness, mass or damping does, while a missing effect may resemble one. The search is then
 //! made again on the records without them, and has to leave less.
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::evidence::{AGREES, GAIN, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::normal_equations::{Left, Normal, RecordDerivatives, solve};
@@ -47,7 +47,7 @@ enum Late {
 
 impl Search<'_> {
     /// Delays that whole records ask for beside the best `fit` of them; none where they explain little.
-    pub(super) fn delays(&self, fit: &FittedRecords) -> Result<Vec<ChannelCorrection>, RecordError> {
+    pub(super) fn delays(&self, fit: &FittedRecords) -> Result<Vec<ChannelCorrection>, RecordDiagnosisError> {
         if misfit(fit) < self.records.agreement(AGREES) || self.control.is_late() {
             return Ok(Vec::new());
         }
@@ -76,7 +76,7 @@ fn delays_beside(
     fit: &FittedRecords,
     known: &[Late],
     control: &Control,
-) -> Result<(Vec<Late>, Vec<f64>), RecordError> {
+) -> Result<(Vec<Late>, Vec<f64>), RecordDiagnosisError> {
     let asked = asked(records);
     let problem = FitProblem { records, free: Free::all(records), share: 1.0, control };
     let normal = problem.with_delays(fit, &asked, longest_step(records))?;
@@ -111,7 +111,7 @@ fn asked(records: &Records) -> Vec<Late> {
 
 impl FitProblem<'_> {
     /// The normal equations at a fit, those of the delays that are `asked` for, in sampling steps of `step` s, behind all others.
-    fn with_delays(&self, at: &FittedRecords, asked: &[Late], step: f64) -> Result<Normal, RecordError> {
+    fn with_delays(&self, at: &FittedRecords, asked: &[Late], step: f64) -> Result<Normal, RecordDiagnosisError> {
         let (scales, unit) = (scales(&at.effects), scale(at));
         let bare = self.assembled(at, unit, Vec::new());
         let size = bare.gradient.len();
@@ -128,7 +128,7 @@ impl FitProblem<'_> {
             self.add_delays(&mut derivatives, r, (asked, step), size);
             Ok(derivatives.products(1.0))
         });
-        for part in parts.into_iter().collect::<Result<Vec<_>, RecordError>>()? {
+        for part in parts.into_iter().collect::<Result<Vec<_>, RecordDiagnosisError>>()? {
             normal.add(&part);
         }
         Ok(normal)
@@ -255,7 +255,7 @@ impl RecordData {
 
 impl<'a> Records<'a> {
     /// The same records without the delays of their channels.
-    pub(super) fn without_delays(&self, delays: &[ChannelCorrection]) -> Result<Records<'a>, RecordError> {
+    pub(super) fn without_delays(&self, delays: &[ChannelCorrection]) -> Result<Records<'a>, RecordDiagnosisError> {
         let runs: Vec<_> = self.list.iter().map(|record| record.run.without_errors(delays)).collect();
         let mut records = Records::new(self.structure, &self.known, &runs)?;
         records.list.iter_mut().zip(&self.list).for_each(|(own, record)| own.index = record.index);

@@ -10,7 +10,7 @@
 //! derivatives do not depend on the laws: fits of several laws at one place may share them.
 
 use super::coarse_steps::Defect;
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::fitted::FittedRecords;
 use super::normal_equations::{Normal, Products, RecordDerivatives, RecordPart};
 use super::problem::FitProblem;
@@ -43,13 +43,13 @@ impl ChordJacobian {
         scales: &[Vec<f64>],
         unit: f64,
         defect: &Defect,
-    ) -> Result<Option<(Self, Normal)>, RecordError> {
+    ) -> Result<Option<(Self, Normal)>, RecordDiagnosisError> {
         let samples: usize = problem.records.list.iter().map(|r| r.len() * r.channels.len()).sum();
         if samples * (problem.shared(at) + problem.local()) > MOST {
             return Ok(None);
         }
         let laws = problem.first_correction(at);
-        let made = problem.control.map(problem.records.list.len(), |r| -> Result<_, RecordError> {
+        let made = problem.control.map(problem.records.list.len(), |r| -> Result<_, RecordDiagnosisError> {
             let mut derivatives = problem.derivatives(at, scales, r, Steps::Coarse)?;
             defect.take_from(r, &mut derivatives.left);
             let part = derivatives.products(1.0);
@@ -68,7 +68,7 @@ impl ChordJacobian {
         scales: &[Vec<f64>],
         unit: f64,
         defect: &Defect,
-    ) -> Result<Normal, RecordError> {
+    ) -> Result<Normal, RecordDiagnosisError> {
         let renewed = |r: usize| self.records[r].renewed(problem, at, scales, (r, defect));
         let parts = problem.control.map(self.records.len(), renewed);
         Ok(problem.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
@@ -99,7 +99,7 @@ impl RecordJacobian {
         at: &FittedRecords,
         scales: &[Vec<f64>],
         (r, defect): (usize, &Defect),
-    ) -> Result<RecordPart, RecordError> {
+    ) -> Result<RecordPart, RecordDiagnosisError> {
         let first = problem.first_correction(at);
         let all = problem.unknowns(at, scales, r);
         let own: Vec<(TransientParameter, usize, f64)> = all.into_iter().filter(|(_, k, _)| *k < first).collect();

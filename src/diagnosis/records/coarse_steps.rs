@@ -8,7 +8,7 @@
 //! What the length of the steps does to a record hardly changes while a fit moves within a round, and is exact where it begins. Steps of
 //! linear models are exact; there is nothing to put right.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::fitted::FittedRecords;
 use super::problem::FitProblem;
 use super::steps::Steps;
@@ -21,10 +21,10 @@ impl FitProblem<'_> {
     /// That of a model.
     ///
     /// # Errors
-    /// [`RecordError`]: a model that cannot be predicted.
-    pub(super) fn defect(&self, at: &FittedRecords) -> Result<Defect, RecordError> {
+    /// [`RecordDiagnosisError`]: a model that cannot be predicted.
+    pub(super) fn defect(&self, at: &FittedRecords) -> Result<Defect, RecordDiagnosisError> {
         let exact = at.sources(self.records).iter().all(|s| has_exact_steps(s.effect));
-        let defect_of_record = |r: usize| -> Result<Option<Vec<Vec<f64>>>, RecordError> {
+        let defect_of_record = |r: usize| -> Result<Option<Vec<Vec<f64>>>, RecordDiagnosisError> {
             if exact || !self.records.list[r].has_coarse_steps() {
                 return Ok(None);
             }

@@ -2,7 +2,7 @@
 //! amplitude curves by one estimator.
 
 use super::amplitude::{AmplitudePoint, Band, amplitude_curve, peaks};
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::decays::{decays, telling};
 use super::errors::channel_errors;
 use super::fitted::FittedRecords;
@@ -90,14 +90,14 @@ pub struct RecordComparison {
 /// Compares the model, with `effects` added, from the measured forces and initial states that are fitted with it.
 ///
 /// # Errors
-/// [`RecordError`]: laws without a force in time, models that run away.
+/// [`RecordDiagnosisError`]: laws without a force in time, models that run away.
 pub fn compare_records(
     records: &Records,
     effects: &[Source],
     control: &Control,
-) -> Result<RecordComparison, RecordError> {
+) -> Result<RecordComparison, RecordDiagnosisError> {
     let fitted = started(records, effects, control)?;
-    let compare_record = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordError> {
+    let compare_record = |(r, record): (usize, &RecordData)| -> Result<OneRecord, RecordDiagnosisError> {
         let model = fitted.predict(records, r, record.len(), &[])?.channels;
         let louder = |factor: f64, c: usize| {
             let mut start = fitted.clone();
@@ -112,7 +112,11 @@ pub fn compare_records(
 }
 
 /// The model with initial states only fitted, short parts first.
-pub(crate) fn started(records: &Records, effects: &[Source], control: &Control) -> Result<FittedRecords, RecordError> {
+pub(crate) fn started(
+    records: &Records,
+    effects: &[Source],
+    control: &Control,
+) -> Result<FittedRecords, RecordDiagnosisError> {
     started_from(records, FittedRecords::start(records, effects), control)
 }
 
@@ -121,7 +125,7 @@ pub(crate) fn started_from(
     records: &Records,
     start: FittedRecords,
     control: &Control,
-) -> Result<FittedRecords, RecordError> {
+) -> Result<FittedRecords, RecordDiagnosisError> {
     let fit = |records: &Records, start: &FittedRecords, share: f64, iterations: usize| {
         FitProblem { records, free: Free::nothing(), share, control }.improve_to(start, iterations, LEAST_GAIN)
     };
@@ -141,7 +145,7 @@ pub(super) fn first_states(
     records: &Records,
     start: FittedRecords,
     control: &Control,
-) -> Result<FittedRecords, RecordError> {
+) -> Result<FittedRecords, RecordDiagnosisError> {
     let fit = |records: &Records, start: &FittedRecords| {
         let share = earliest(records);
         FitProblem { records, free: Free::nothing(), share, control }.improve(start, FIRST_STEPS)
@@ -212,7 +216,7 @@ pub(super) fn struck(record: &RecordData) -> Option<f64> {
 }
 
 /// What noise would leave of all records, root mean square over channels, as [`compare_records`] tells it of the same model.
-pub(super) fn noise_floor(records: &Records, fitted: &FittedRecords) -> Result<f64, RecordError> {
+pub(super) fn noise_floor(records: &Records, fitted: &FittedRecords) -> Result<f64, RecordDiagnosisError> {
     let mut all = Vec::new();
     for (r, record) in records.list.iter().enumerate() {
         let model = fitted.predict(records, r, record.len(), &[])?.channels;

@@ -1,6 +1,6 @@
 //! What is said at the end of a search: steps, corrections, suggestions with their errors, the verdict.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::evidence::{AGREES, misfit, scale};
 use super::fitted::FittedRecords;
 use super::model_errors::ModelErrors;
@@ -34,7 +34,7 @@ const STATED: f64 = 4.0;
 impl Search<'_> {
     /// Fills `diagnosis` with what was found; masses and springs that leave no less than corrections of the model do are none, where
     /// these agree with the records.
-    pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+    pub(super) fn conclude(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordDiagnosisError> {
         let before = diagnosis.clone();
         self.conclude_found(by_size, diagnosis)?;
         let bare = by_size.earlier.iter().rev().find(|(_, fit)| fit.effects.is_empty());
@@ -55,7 +55,7 @@ impl Search<'_> {
     }
 
     /// The same, whatever corrections alone leave.
-    fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordError> {
+    fn conclude_found(&self, by_size: &SetsBySize, diagnosis: &mut Diagnosis) -> Result<(), RecordDiagnosisError> {
         let late = self.control.is_late();
         let mut last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         if late {
@@ -99,7 +99,7 @@ impl Search<'_> {
 
     /// The fits of a search whose time was up: without the corrections that are no more than their priors allow, of which nobody was asked
     /// what else they stand for, unless these take away much of the error.
-    fn believable(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordError> {
+    fn believable(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let lean: Vec<FittedRecords> = fits.iter().map(beyond_priors).collect();
         let (Some(best), Some(first)) = (fits.first(), lean.first()) else { return Ok(fits) };
         let keeps = self.predicted_error_with_parts(best)? < BETTER * self.predicted_error_with_parts(first)?;
@@ -107,7 +107,7 @@ impl Search<'_> {
     }
 
     /// What comparing the project shows with all corrections of `fit` and its effects.
-    fn predicted_error_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordError> {
+    fn predicted_error_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordDiagnosisError> {
         let structure = self.structure_with(&factors(&corrections_of_parts(self.records, fit)));
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
         let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
@@ -121,7 +121,7 @@ impl Search<'_> {
         (stated, error): (&FittedRecords, f64),
         found: &[FittedRecords],
         diagnosis: &mut Diagnosis,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), RecordDiagnosisError> {
         let model_errors = ModelErrors::of(self.records.structure, stated);
         if model_errors.sources.is_empty() {
             return self.conclude_stated((stated, error), misfit(stated), found, diagnosis);
@@ -145,7 +145,7 @@ impl Search<'_> {
     }
 
     /// A fit on whole records, with deviations of its own.
-    fn corrected_whole(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    fn corrected_whole(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         self.fit(self.levels.len() - 1, fit, 1.0, REFITTING)
     }
 
@@ -157,7 +157,7 @@ impl Search<'_> {
         left: f64,
         fits: &[FittedRecords],
         diagnosis: &mut Diagnosis,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), RecordDiagnosisError> {
         diagnosis.steps.push(Step { added: added(stated), error, misfit: misfit(stated) });
         diagnosis.corrections.extend(corrections(self.records, stated));
         diagnosis.test_errors = self.test_errors(stated, error)?;
@@ -200,13 +200,13 @@ impl Search<'_> {
     }
 
     /// A set of a shorter level on the whole records; none where it runs away there.
-    fn step(&self, fit: &FittedRecords, level: usize) -> Result<Option<Step>, RecordError> {
+    fn step(&self, fit: &FittedRecords, level: usize) -> Result<Option<Step>, RecordDiagnosisError> {
         let whole = self.levels.len() - 1;
         let on_whole = self.carried(fit, level, whole).and_then(|fit| self.quiet(whole, &fit));
         let stated = |fit: &FittedRecords| self.quiet(whole, &fit.stated(self.records))?.error(self.records, 0.0, 1.0);
         match on_whole.and_then(|fit| Ok((stated(&fit)?, fit))) {
             Ok((error, fit)) => Ok(Some(Step { added: added(&fit), error, misfit: misfit(&fit) })),
-            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(None),
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => Ok(None),
             Err(other) => Err(other),
         }
     }
@@ -217,7 +217,7 @@ impl Search<'_> {
         suggestion: &mut Suggestion,
         (stated, error): (&FittedRecords, f64),
         fits: &[FittedRecords],
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), RecordDiagnosisError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));
         let likely = suggestion.probability > UNLIKELY;
         if let Some(fit) = fits.iter().find(has).filter(|_| likely && !self.control.is_late()) {
@@ -233,7 +233,7 @@ impl Search<'_> {
     }
 
     /// What errors of the test - frequencies of each record, zeros, gains - add to the predicted `error`; `None` where that is little.
-    fn test_errors(&self, stated: &FittedRecords, error: f64) -> Result<Option<TestErrors>, RecordError> {
+    fn test_errors(&self, stated: &FittedRecords, error: f64) -> Result<Option<TestErrors>, RecordDiagnosisError> {
         if stated.shifts.len() < 2 {
             return Ok(None);
         }
@@ -249,7 +249,7 @@ impl Search<'_> {
         stated: &FittedRecords,
         error: f64,
         diagnosis: &Diagnosis,
-    ) -> Result<Vec<String>, RecordError> {
+    ) -> Result<Vec<String>, RecordDiagnosisError> {
         let mut words = Vec::new();
         let floor = diagnosis.noise_floor.max(f64::MIN_POSITIVE);
         let count = stated.effects.len();

@@ -8,7 +8,7 @@
 //! d ln omega_r^2 = p_r^2 Re Z(omega_r) / omega_r^2,    d ln c_r = ln(1 + p_r^2 Im Z(omega_r) / (omega_r c_r)),    p_r = phi_r^T b
 //! ```
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::fitted::FittedRecords;
 use super::search::Search;
 use crate::effects::{Law, Source};
@@ -25,10 +25,10 @@ const ALIKE: f64 = 0.2;
 impl Search<'_> {
     /// The fit of whole records without the effects of `fit`; `None` where these are none that corrections could stand for, or are masses
     /// or springs, for which [`super::single_change`] speaks.
-    pub(super) fn corrections_alone(&self, fit: &FittedRecords) -> Result<Option<FittedRecords>, RecordError> {
+    pub(super) fn corrections_alone(&self, fit: &FittedRecords) -> Result<Option<FittedRecords>, RecordDiagnosisError> {
         let Some(start) = self.absorbed(fit) else { return Ok(None) };
         match self.fit(self.levels.len() - 1, &start, 1.0, ROUNDS) {
-            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(None),
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => Ok(None),
             other => other.map(Some),
         }
     }

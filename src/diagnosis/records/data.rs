@@ -29,7 +29,7 @@ const MANY: usize = 8000;
 /// Why records cannot be compared or explained.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
-pub enum RecordError {
+pub enum RecordDiagnosisError {
     #[error("no decay or transient can be used: all are switched off; add one with `use = true`")]
     NoRuns,
     #[error("run {file}: {reason}")]
@@ -120,8 +120,12 @@ impl<'a> Records<'a> {
     /// Takes the runs that are switched on.
     ///
     /// # Errors
-    /// [`RecordError`]: no run, no force, no matrices.
-    pub fn new(structure: &'a Structure, sources: &[Source], runs: &[TransientRun]) -> Result<Self, RecordError> {
+    /// [`RecordDiagnosisError`]: no run, no force, no matrices.
+    pub fn new(
+        structure: &'a Structure,
+        sources: &[Source],
+        runs: &[TransientRun],
+    ) -> Result<Self, RecordDiagnosisError> {
         let modes = structure.modes()?;
         let acts = |s: &&Source| s.state == State::Known && !matches!(s.effect.kind(), EffectKind::Channel(_));
         let known = sources.iter().filter(acts).cloned().collect();
@@ -130,7 +134,7 @@ impl<'a> Records<'a> {
             list.push(record(index, run)?);
         }
         if list.is_empty() {
-            return Err(RecordError::NoRuns);
+            return Err(RecordDiagnosisError::NoRuns);
         }
         let mut kept = modes_followed(&list, &modes);
         let last_hz = last_hz(&list, &modes, kept);
@@ -149,7 +153,7 @@ impl<'a> Records<'a> {
     }
 
     /// The same records beside another structure of the same DOFs.
-    pub(super) fn on<'b>(&self, structure: &'b Structure) -> Result<Records<'b>, RecordError>
+    pub(super) fn on<'b>(&self, structure: &'b Structure) -> Result<Records<'b>, RecordDiagnosisError>
     where
         'a: 'b,
     {
@@ -207,12 +211,12 @@ impl<'a> Records<'a> {
         sources: &[Source],
         factors: [f64; 2],
         (modes, parts, shape_errors): ([&[f64]; 2], &[(Part, f64)], &[Vec<f64>]),
-    ) -> Result<TransientModel, RecordError> {
+    ) -> Result<TransientModel, RecordDiagnosisError> {
         let shape_errors = &self.shape_errors(record, shape_errors);
         let setup = self.setup(record, sources, factors, (modes, parts));
         let directions = &self.parts.weights;
         TransientModel::new(&TransientSetup { directions, shape_errors, ..setup })
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })
+            .map_err(|reason| RecordDiagnosisError::Model { file: record.file.clone(), reason })
     }
 
     /// The same before it is assembled, without errors of shapes and derivatives by parts.
@@ -299,10 +303,10 @@ fn last_hz(list: &[RecordData], modes: &Modes, kept: usize) -> f64 {
     if last * longest > 1.0 { last } else { list.iter().map(|r| r.highest_hz).fold(last, f64::max) }
 }
 
-fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordError> {
+fn record(index: usize, run: &TransientRun) -> Result<RecordData, RecordDiagnosisError> {
     let driven = run.force_channels();
     if run.kind == Kind::Transient && driven.is_empty() {
-        return Err(RecordError::NoForce { file: run.file.clone() });
+        return Err(RecordDiagnosisError::NoForce { file: run.file.clone() });
     }
     let seen = run.response_channels();
     let channels: Vec<Channel> = seen.iter().map(|&c| run.channels()[c].clone()).collect();

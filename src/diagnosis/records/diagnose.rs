@@ -11,7 +11,7 @@
 use super::backward_elimination::WITHOUT;
 use super::channel_delays;
 use super::compare::{noise_floor, started};
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::evidence::{AGREES, GAIN, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::problem::{corrected_by, is_strained};
@@ -57,13 +57,13 @@ const MUCH: f64 = 16.0;
 /// search is made again.
 ///
 /// # Errors
-/// [`RecordError`]: models that cannot be predicted, a search that was stopped.
+/// [`RecordDiagnosisError`]: models that cannot be predicted, a search that was stopped.
 pub fn diagnose_records(
     records: &Records,
     excluded: &[Source],
     control: &Control,
     early: &Early,
-) -> Result<Diagnosis, RecordError> {
+) -> Result<Diagnosis, RecordDiagnosisError> {
     let (mut diagnosis, mut asked) = searched(records, excluded, control, early)?;
     let (stated, before) = (diagnosis.steps[0].clone(), left(&diagnosis));
     let mut delays = Vec::new();
@@ -75,7 +75,7 @@ pub fn diagnose_records(
         let found = records.without_delays(&all).and_then(|records| searched(&records, excluded, control, early));
         let (without, more) = match found {
             // What was found before stands.
-            Err(RecordError::Model { .. } | RecordError::Singular) => break,
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => break,
             other => other?,
         };
         if left(&without) > WITHOUT_DELAYS * left(&diagnosis) {
@@ -103,7 +103,7 @@ fn searched(
     excluded: &[Source],
     control: &Control,
     early: &Early,
-) -> Result<(Diagnosis, Vec<ChannelCorrection>), RecordError> {
+) -> Result<(Diagnosis, Vec<ChannelCorrection>), RecordDiagnosisError> {
     let bare = started(records, &[], control)?;
     // Both as comparing the project shows them: one error and one noise floor of a record, whoever asks.
     let (before, noise_floor) = (bare.error(records, 0.0, 1.0)?, noise_floor(records, &bare)?);
@@ -137,7 +137,7 @@ fn searched(
 ///
 /// # Errors
 /// As [`diagnose_records`].
-pub(crate) fn agreement_with_records(records: &Records, control: &Control) -> Result<Step, RecordError> {
+pub(crate) fn agreement_with_records(records: &Records, control: &Control) -> Result<Step, RecordDiagnosisError> {
     let bare = started(records, &[], control)?;
     Ok(Step { added: Vec::new(), error: bare.error(records, 0.0, 1.0)?, misfit: misfit(&bare) })
 }
@@ -149,19 +149,19 @@ impl Search<'_> {
         bare: &FittedRecords,
         diagnosis: &mut Diagnosis,
         early: &Early,
-    ) -> Result<Vec<ChannelCorrection>, RecordError> {
+    ) -> Result<Vec<ChannelCorrection>, RecordDiagnosisError> {
         let by_size = self.climbed(bare, early)?;
         self.conclude(&by_size, diagnosis)?;
         match by_size.last.first().map_or(Ok(Vec::new()), |best| self.delays(best)) {
             // What was found stands whether or not delays can be asked for beside it.
-            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(Vec::new()),
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => Ok(Vec::new()),
             other => other,
         }
     }
 
     /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried
     /// on to the whole records.
-    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordError> {
+    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordDiagnosisError> {
         let whole = self.levels.len() - 1;
         let bare = self.carried(bare, whole, 0)?;
         let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.updated_model(&bare)?] };
@@ -215,7 +215,7 @@ impl Search<'_> {
         bare: &FittedRecords,
         by_size: &mut SetsBySize,
         early: &Early,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), RecordDiagnosisError> {
         while let Some(best) = by_size.last.first() {
             if self.agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
@@ -246,7 +246,7 @@ impl Search<'_> {
         level: usize,
         found: &[FittedRecords],
         old: &FittedRecords,
-    ) -> Result<Option<usize>, RecordError> {
+    ) -> Result<Option<usize>, RecordDiagnosisError> {
         let other = found.iter().position(|f| !f.adds_constant());
         for k in std::iter::once(0).chain(other.filter(|k| *k > 0)) {
             if found.get(k).map_or(Ok(false), |f| self.is_better(level, f, old))? {
@@ -261,7 +261,7 @@ impl Search<'_> {
     }
 
     /// Whether a fit is better than the one before by evidence, by its error and by what it predicts.
-    fn is_better(&self, level: usize, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordError> {
+    fn is_better(&self, level: usize, new: &FittedRecords, old: &FittedRecords) -> Result<bool, RecordDiagnosisError> {
         let scale = scale(new);
         let gain = evidence(old, scale) - evidence(new, scale);
         let worth = 1.0 - (new.chi_square / old.chi_square).sqrt();
@@ -291,11 +291,11 @@ impl Search<'_> {
     }
 
     /// Error on the last part of each record of a fit on the rest.
-    pub(super) fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordError> {
+    pub(super) fn held_out(&self, level: usize, fit: &FittedRecords) -> Result<f64, RecordDiagnosisError> {
         let learnt = self.fit(level, fit, LEARNT, LEARNING);
         match learnt.and_then(|learnt| learnt.error(&self.levels[level], LEARNT, 1.0)) {
             Ok(error) => Ok(error),
-            Err(RecordError::Model { .. } | RecordError::Singular) => Ok(f64::INFINITY),
+            Err(RecordDiagnosisError::Model { .. } | RecordDiagnosisError::Singular) => Ok(f64::INFINITY),
             Err(other) => Err(other),
         }
     }

@@ -7,7 +7,7 @@
 //! `u` is 1 where the model leaves noise, more where it leaves more ([`super::evidence`]).
 
 use super::chord_steps::ChordJacobian;
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{alike, scale};
 use super::fitted::FittedRecords;
 use super::normal_equations::{Equations, Left, Normal, solve};
@@ -50,7 +50,11 @@ struct Limits {
 
 impl FitProblem<'_> {
     /// Improves a start in at most `iterations` steps; fewer where time is up.
-    pub(super) fn improve(&self, start: &FittedRecords, iterations: usize) -> Result<FittedRecords, RecordError> {
+    pub(super) fn improve(
+        &self,
+        start: &FittedRecords,
+        iterations: usize,
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         self.improve_to(start, iterations, LEAST_GAIN)
     }
 
@@ -60,7 +64,7 @@ impl FitProblem<'_> {
         start: &FittedRecords,
         iterations: usize,
         least_gain: f64,
-    ) -> Result<FittedRecords, RecordError> {
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         let scales = scales(&start.effects);
         let unit = unit_of(start);
         let normal = |at: &FittedRecords| self.normal(at, &scales, unit);
@@ -74,7 +78,11 @@ impl FitProblem<'_> {
 
     /// The same in at most `rounds` of `steps` steps; in each round all variables but those of the laws are differentiated once
     /// ([`ChordJacobian`]).
-    pub(super) fn chord_fit(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
+    pub(super) fn chord_fit(
+        &self,
+        start: &FittedRecords,
+        rounds: [usize; 2],
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         self.chord_fit_from(start, rounds, &mut None)
     }
 
@@ -85,13 +93,17 @@ impl FitProblem<'_> {
         start: &FittedRecords,
         rounds: [usize; 2],
         chord: &mut Option<ChordJacobian>,
-    ) -> Result<FittedRecords, RecordError> {
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         self.chord_rounds(start, rounds, unit_of(start), chord)
     }
 
     /// The same with priors that weigh as if the start left noise alone, then what it leaves: where the priors of a start that leaves much
     /// hold corrections so fast that what they would take away stays.
-    pub(super) fn freed(&self, start: &FittedRecords, rounds: [usize; 2]) -> Result<FittedRecords, RecordError> {
+    pub(super) fn freed(
+        &self,
+        start: &FittedRecords,
+        rounds: [usize; 2],
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         let free = self.chord_rounds(start, rounds, 1.0, &mut None)?;
         self.chord_fit(&free, rounds)
     }
@@ -102,7 +114,7 @@ impl FitProblem<'_> {
         [rounds, steps]: [usize; 2],
         mut unit: f64,
         chord: &mut Option<ChordJacobian>,
-    ) -> Result<FittedRecords, RecordError> {
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         let scales = scales(&start.effects);
         let mut best = start.clone();
         for round in 0..rounds {
@@ -144,7 +156,7 @@ impl FitProblem<'_> {
         scales: &[Vec<f64>],
         unit: f64,
         by: &Equations,
-    ) -> Result<(Iterate, bool), RecordError> {
+    ) -> Result<(Iterate, bool), RecordDiagnosisError> {
         let mut damping = 1e-3;
         for k in 0..limits.steps {
             self.control.check()?;
@@ -174,7 +186,7 @@ impl FitProblem<'_> {
         (equations, by): (&Normal, &Equations),
         damping: &mut f64,
         (attempts, least): (usize, f64),
-    ) -> Result<Option<Iterate>, RecordError> {
+    ) -> Result<Option<Iterate>, RecordDiagnosisError> {
         let before = equations.left.total(unit);
         for attempt in 0..attempts {
             let Some(step) = solve(equations, *damping) else {
@@ -199,7 +211,7 @@ impl FitProblem<'_> {
                     return Ok(Some((trial, there)));
                 }
                 // A model that runs away is no step.
-                Ok(_) | Err(RecordError::Model { .. }) => *damping = (*damping * 8.0).max(1e-6),
+                Ok(_) | Err(RecordDiagnosisError::Model { .. }) => *damping = (*damping * 8.0).max(1e-6),
                 Err(other) => return Err(other),
             }
             if self.control.is_late() {

@@ -1,6 +1,6 @@
 //! The motion of a fit at the places where a law may act.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::fitted::FittedRecords;
 use crate::control::Control;
 use crate::effects::{Leg, Range};
@@ -24,8 +24,8 @@ impl FitMotion {
     /// Of a fit on its records.
     ///
     /// # Errors
-    /// [`RecordError::Model`] where the model cannot be predicted.
-    pub(super) fn new(records: &Records, fit: &FittedRecords, control: &Control) -> Result<Self, RecordError> {
+    /// [`RecordDiagnosisError::Model`] where the model cannot be predicted.
+    pub(super) fn new(records: &Records, fit: &FittedRecords, control: &Control) -> Result<Self, RecordDiagnosisError> {
         let rows = control.map(records.list.len(), |r| of_record(records, fit, r));
         let omega = TAU * records.list.first().map_or(1.0, |r| r.dominant_hz);
         Ok(Self { rows: rows.into_iter().collect::<Result<_, _>>()?, omega })
@@ -70,7 +70,11 @@ impl FitMotion {
     }
 }
 
-fn of_record(records: &Records, fit: &FittedRecords, r: usize) -> Result<Vec<Option<MotionOfDof>>, RecordError> {
+fn of_record(
+    records: &Records,
+    fit: &FittedRecords,
+    r: usize,
+) -> Result<Vec<Option<MotionOfDof>>, RecordDiagnosisError> {
     let record = &records.list[r];
     let rows = records.structure.translations();
     let quantities = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration];
@@ -78,7 +82,7 @@ fn of_record(records: &Records, fit: &FittedRecords, r: usize) -> Result<Vec<Opt
     let channels: Vec<Channel> = rows.iter().flat_map(|dof| channel(*dof)).collect();
     let (sources, parts) = (fit.sources(records), records.parts.logarithms(&fit.parts));
     let setup = records.setup(record, &sources, fit.factors(r), ([&fit.modes, &fit.damping], &parts));
-    let failed = |reason| RecordError::Model { file: record.file.clone(), reason };
+    let failed = |reason| RecordDiagnosisError::Model { file: record.file.clone(), reason };
     let model = TransientModel::new(&TransientSetup { channels: &channels, ..setup }).map_err(failed)?;
     let forces = record.excitation(model.is_linear());
     let mut lists = model.predict(&forces, &fit.initial[r], &[]).map_err(failed)?.channels.into_iter();

@@ -1,6 +1,6 @@
 //! A model with the parameters that were fitted to some records, and what it predicts.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::errors::channel_errors;
 use super::steps::Steps;
 use crate::effects::Source;
@@ -101,7 +101,7 @@ impl FittedRecords {
         r: usize,
         samples: usize,
         parameters: &[TransientParameter],
-    ) -> Result<TransientResponse, RecordError> {
+    ) -> Result<TransientResponse, RecordDiagnosisError> {
         self.predict_in(Steps::Fine, records, (r, samples), parameters)
     }
 
@@ -112,7 +112,7 @@ impl FittedRecords {
         records: &Records,
         (r, samples): (usize, usize),
         parameters: &[TransientParameter],
-    ) -> Result<TransientResponse, RecordError> {
+    ) -> Result<TransientResponse, RecordDiagnosisError> {
         let record = &records.list[r];
         let parts = records.parts.logarithms(&self.parts);
         let model = records.model(
@@ -124,7 +124,7 @@ impl FittedRecords {
         let forces = record.excitation_in(samples, model.is_linear(), steps);
         let mut response = model
             .predict(&forces, &self.initial[r], parameters)
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;
+            .map_err(|reason| RecordDiagnosisError::Model { file: record.file.clone(), reason })?;
         for (c, (channel, offset)) in response.channels.iter_mut().zip(&self.offsets[r]).enumerate() {
             let offset = offset * record.largest[c];
             channel.iter_mut().for_each(|y| *y += offset);
@@ -143,7 +143,7 @@ impl FittedRecords {
     }
 
     /// Relative error of the model over samples `from..to` (shares of the length of every record).
-    pub(crate) fn error(&self, records: &Records, from: f64, to: f64) -> Result<f64, RecordError> {
+    pub(crate) fn error(&self, records: &Records, from: f64, to: f64) -> Result<f64, RecordDiagnosisError> {
         let mut errors = Vec::new();
         for (r, record) in records.list.iter().enumerate() {
             let last = (to * record.len() as f64) as usize;

@@ -1,7 +1,7 @@
 //! Fits whose corrections are freed: on the way to a fit the priors hold them by all that was left there, and what they would take away
 //! stays ([`super::problem::FitProblem`]).
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::search::{HOPELESS, NOISE, Search, add_begun};
@@ -16,7 +16,7 @@ impl Search<'_> {
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         if let Some(best) = found.first().filter(|f| misfit(f) > AGREES && !self.control.is_late())
             && let Some(freed) = self.freed(level, best)?
         {
@@ -41,9 +41,13 @@ impl Search<'_> {
     }
 
     /// A fit begun at `start` with corrections that are free; `None` where it runs away.
-    pub(super) fn freed(&self, level: usize, start: &FittedRecords) -> Result<Option<FittedRecords>, RecordError> {
+    pub(super) fn freed(
+        &self,
+        level: usize,
+        start: &FittedRecords,
+    ) -> Result<Option<FittedRecords>, RecordDiagnosisError> {
         match self.problem(level, 1.0).freed(start, FREEING) {
-            Err(RecordError::Singular | RecordError::Model { .. }) => Ok(None),
+            Err(RecordDiagnosisError::Singular | RecordDiagnosisError::Model { .. }) => Ok(None),
             other => other.map(Some),
         }
     }

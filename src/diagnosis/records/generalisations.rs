@@ -1,7 +1,7 @@
 //! Generalisations of the law that fits best, started where they exert the same force: the fit of a law of one parameter cannot find the
 //! law of more parameters that it is a special case of (friction that falls with speed, a slider with a spring).
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{AGREES, misfit};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
@@ -27,7 +27,7 @@ impl Search<'_> {
         &self,
         level: usize,
         found: &[FittedRecords],
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let laws: Vec<Effect> =
             law.effect.generalisations().into_iter().filter(|e| self.laws.contains(e) && *e != law.effect).collect();
@@ -44,7 +44,7 @@ impl Search<'_> {
         &self,
         level: usize,
         found: &[FittedRecords],
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let ends = level == 0 || level + 1 == self.levels.len();
         if !ends || self.control.is_late() {
@@ -79,14 +79,14 @@ impl Search<'_> {
         level: usize,
         fit: &FittedRecords,
         laws: &[Effect],
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some((law, leg)) = fit.effects.last().and_then(|e| Some((e, e.place.legs().first().copied()?))) else {
             return Ok(Vec::new());
         };
         let mut problem = self.problem(level, 1.0);
         problem.free.effects = false;
         let test = match ScoreTest::new(&problem, fit).and_then(|test| test.without(law)) {
-            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
+            Err(RecordDiagnosisError::Singular | RecordDiagnosisError::Model { .. }) => return Ok(Vec::new()),
             other => other?,
         };
         let shapes = self.control.map(laws.len(), |k| test.shapes_at(&law.place, &laws[k..=k])).into_iter().flatten();

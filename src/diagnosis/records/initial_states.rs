@@ -1,7 +1,7 @@
 //! The states in which records, and parts of them, begin, where a fit of a law that is strong may begin: the states of a fit without
 //! the law are bent to what the law does, and far from its own a fit loses the phase within a few periods.
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::fitted::FittedRecords;
 use super::search::Search;
 use crate::balance::windows::motion::Motion;
@@ -102,7 +102,12 @@ impl Search<'_> {
 
     /// A start whose first periods are fitted before the whole parts where it leaves more than `most` of them: with a law that is not
     /// linear it has lost the phase on the way.
-    pub(super) fn in_phase(&self, level: usize, start: FittedRecords, most: f64) -> Result<FittedRecords, RecordError> {
+    pub(super) fn in_phase(
+        &self,
+        level: usize,
+        start: FittedRecords,
+        most: f64,
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         let nonlinear = start.effects.iter().any(|e| !e.effect.is_linear());
         let lost = || self.problem(level, 1.0).left(&start).is_ok_and(|left| left.chi_square > most);
         if nonlinear && lost() { self.fit_first_periods(level, &start, IN_PHASE) } else { Ok(start) }
@@ -114,7 +119,7 @@ impl Search<'_> {
         level: usize,
         start: &FittedRecords,
         rounds: [usize; 2],
-    ) -> Result<FittedRecords, RecordError> {
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         self.problem(level, FIRST).chord_fit(start, rounds)
     }
 }

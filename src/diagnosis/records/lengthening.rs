@@ -1,6 +1,6 @@
 //! Fits carried on from short segments of the records to longer ones, at last to the whole records: at once where they keep the phase.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::pruning::{diverse, without_needless_generalisations};
@@ -40,7 +40,7 @@ impl Search<'_> {
         rivals: &[FittedRecords],
         from: usize,
         to: usize,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let mut few = diverse(&without_needless_generalisations(rivals), RIVALS);
         if let Some(best) = rivals.first() {
             let unit = scale(best);

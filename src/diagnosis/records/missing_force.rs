@@ -2,7 +2,7 @@
 //! (restoring force: Masri and Caughey 1979): [`FreeForce`] over parts of two periods of large, middle and small motion.
 
 use super::compare::started;
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::fit_motion::FitMotion;
 use super::free_force::{FreeForce, in_band};
 use super::localisation::locate;
@@ -34,13 +34,13 @@ const POINTS: usize = 120;
 /// `None` for laws of the whole structure and where no record shows the force.
 ///
 /// # Errors
-/// [`RecordError`]: a model that cannot be predicted.
+/// [`RecordDiagnosisError`]: a model that cannot be predicted.
 pub fn missing_force(
     records: &Records,
     diagnosis: &Diagnosis,
     source: Option<&Source>,
     control: &Control,
-) -> Result<Option<RestoringForce>, RecordError> {
+) -> Result<Option<RestoringForce>, RecordDiagnosisError> {
     let part = |parameter: &UpdatingParameter| match parameter {
         UpdatingParameter::Structure(part) => Some(*part),
         _ => None,
@@ -75,7 +75,7 @@ fn at_place(
     records: &Records,
     (others, place, law): (&[Source], &Place, Option<&Source>),
     control: &Control,
-) -> Result<Option<RestoringForce>, RecordError> {
+) -> Result<Option<RestoringForce>, RecordDiagnosisError> {
     let (Place::Dofs(_), Some(leg)) = (place, place.legs().first().copied()) else { return Ok(None) };
     let (mut linear, drawn) = with_others(records, others, law, control)?;
     linear.list = drawn;
@@ -107,7 +107,7 @@ fn with_others<'a>(
     others: &[Source],
     law: Option<&Source>,
     control: &Control,
-) -> Result<(Records<'a>, Vec<RecordData>), RecordError> {
+) -> Result<(Records<'a>, Vec<RecordData>), RecordDiagnosisError> {
     let all: Vec<Source> = records.known.iter().chain(others).cloned().collect();
     let (linear, other): (Vec<Source>, Vec<Source>) = all.into_iter().partition(|s| s.effect.is_linear());
     let mut list = records.list.clone();

@@ -67,7 +67,7 @@ pub(crate) mod variables;
 mod weights;
 
 pub use compare::{RecordComparison, compare_records};
-pub use data::{RecordError, Records};
+pub use data::{RecordDiagnosisError, Records};
 pub(crate) use diagnose::agreement_with_records;
 pub use diagnose::diagnose_records;
 pub use missing_force::missing_force;

@@ -1,6 +1,6 @@
 //! Model updating on the shortest segments of the records, without further effects: the start of all fits with effects.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{AGREES, misfit};
 use super::fitted::FittedRecords;
 use super::regression::Regression;
@@ -16,7 +16,7 @@ pub(super) const SHARES: [f64; 3] = [0.15, 0.4, 1.0];
 
 impl Search<'_> {
     /// The fit of growing shares of every segment of a level: the highest modes of a model that is off lose the phase within a segment.
-    fn fit_growing(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    fn fit_growing(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         let mut fitted = start.clone();
         for share in SHARES {
             fitted = self.fit(level, &fitted, share, UPDATING)?;
@@ -25,7 +25,7 @@ impl Search<'_> {
     }
 
     /// The model updated on the shortest segments, where a frequency that is off does not lose the phase.
-    pub(super) fn updated_model(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn updated_model(&self, bare: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         let mut fitted = self.fit(0, bare, 1.0, UPDATING)?;
         // The motion itself may know better how far the model is off.
         if let Some(regression) = Regression::new(self.records, bare, self.control) {

@@ -1,7 +1,7 @@
 //! The law that fits best at the places next to its own: between sensors a free force of a model that is off is seen at the wrong one of
 //! them.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::equal_work::{least, with_equal_work};
 use super::fitted::FittedRecords;
 use super::pruning::is_same_set;
@@ -20,7 +20,7 @@ impl Search<'_> {
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let place = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.place.clone());
         for _ in 0..MOVED {
             let next_to = self.starts_at_neighbours(level, &found)?;
@@ -37,7 +37,11 @@ impl Search<'_> {
     }
 
     /// The best of `found` with its last law moved to the places next to its own, the [`BESIDE`] that would leave least to first order.
-    fn starts_at_neighbours(&self, level: usize, found: &[FittedRecords]) -> Result<Vec<FittedRecords>, RecordError> {
+    fn starts_at_neighbours(
+        &self,
+        level: usize,
+        found: &[FittedRecords],
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some((best, law)) = found.first().and_then(|f| Some((f, f.effects.last()?))) else { return Ok(Vec::new()) };
         let others = &best.effects[..best.effects.len() - 1];
         let mut places = next_to(&law.place, &self.records.structure.neighbours());
@@ -47,7 +51,7 @@ impl Search<'_> {
         }
         let problem = self.problem(level, 1.0);
         let test = match ScoreTest::new(&problem, best).and_then(|test| test.without(law)) {
-            Err(RecordError::Singular | RecordError::Model { .. }) => return Ok(Vec::new()),
+            Err(RecordDiagnosisError::Singular | RecordDiagnosisError::Model { .. }) => return Ok(Vec::new()),
             other => other?,
         };
         let begun = |k: usize| {

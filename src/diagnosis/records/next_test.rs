@@ -5,7 +5,7 @@
 //! separation^2 = sum_channels,samples ((y - y') / noise)^2 / samples over which what a model leaves stays alike
 //! ```
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::fitted::FittedRecords;
 use super::search::Search;
 use super::weights::in_band;
@@ -35,7 +35,7 @@ struct Trial {
 
 impl Search<'_> {
     /// The test that tells the first of `fits` from the next that holds other effects; none where nothing would.
-    pub(super) fn next_tests(&self, fits: &[FittedRecords]) -> Result<Vec<NextTest>, RecordError> {
+    pub(super) fn next_tests(&self, fits: &[FittedRecords]) -> Result<Vec<NextTest>, RecordDiagnosisError> {
         let Some(best) = fits.first() else { return Ok(Vec::new()) };
         let other = |f: &&FittedRecords| !f.effects.iter().all(|e| best.effects.iter().any(|b| b.is_same(e)));
         let Some(rival) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };

@@ -2,7 +2,7 @@
 //! corrections, and the step of Levenberg and Marquardt that follows from them.
 
 use super::coarse_steps::Defect;
-use super::data::{RecordData, RecordError};
+use super::data::{RecordData, RecordDiagnosisError};
 use super::fitted::FittedRecords;
 use super::problem::FitProblem;
 use super::steps::Steps;
@@ -19,8 +19,8 @@ pub(super) struct Normal {
 
 /// How the equations at a point, and what is left there, are found.
 pub(super) struct Equations<'a> {
-    pub normal: &'a dyn Fn(&FittedRecords) -> Result<Normal, RecordError>,
-    pub left: &'a dyn Fn(&FittedRecords) -> Result<Left, RecordError>,
+    pub normal: &'a dyn Fn(&FittedRecords) -> Result<Normal, RecordDiagnosisError>,
+    pub left: &'a dyn Fn(&FittedRecords) -> Result<Left, RecordDiagnosisError>,
 }
 
 /// What is left at a point.
@@ -39,7 +39,12 @@ impl Left {
 }
 
 impl FitProblem<'_> {
-    pub(super) fn normal(&self, at: &FittedRecords, scales: &[Vec<f64>], unit: f64) -> Result<Normal, RecordError> {
+    pub(super) fn normal(
+        &self,
+        at: &FittedRecords,
+        scales: &[Vec<f64>],
+        unit: f64,
+    ) -> Result<Normal, RecordDiagnosisError> {
         let parts = self.control.map(self.records.list.len(), |r| {
             self.derivatives(at, scales, r, Steps::Fine).map(|derivatives| derivatives.products(1.0))
         });
@@ -78,12 +83,12 @@ impl FitProblem<'_> {
     }
 
     /// What a model leaves, without derivatives.
-    pub(super) fn left(&self, at: &FittedRecords) -> Result<Left, RecordError> {
+    pub(super) fn left(&self, at: &FittedRecords) -> Result<Left, RecordDiagnosisError> {
         self.left_by(at, &|r| self.left_of(at, r, Steps::Fine))
     }
 
     /// The same in long steps, put right by their defect.
-    pub(super) fn left_beside(&self, at: &FittedRecords, defect: &Defect) -> Result<Left, RecordError> {
+    pub(super) fn left_beside(&self, at: &FittedRecords, defect: &Defect) -> Result<Left, RecordDiagnosisError> {
         self.left_by(at, &|r| {
             let mut left = self.left_of(at, r, Steps::Coarse)?;
             defect.take_from(r, &mut left);
@@ -94,8 +99,8 @@ impl FitProblem<'_> {
     fn left_by(
         &self,
         at: &FittedRecords,
-        left_of_record: &(dyn Fn(usize) -> Result<Vec<Vec<f64>>, RecordError> + Sync),
-    ) -> Result<Left, RecordError> {
+        left_of_record: &(dyn Fn(usize) -> Result<Vec<Vec<f64>>, RecordDiagnosisError> + Sync),
+    ) -> Result<Left, RecordDiagnosisError> {
         let mut left = Left::default();
         for list in self.control.map(self.records.list.len(), left_of_record) {
             let list = list?;
@@ -108,7 +113,12 @@ impl FitProblem<'_> {
     }
 
     /// What it leaves of record `r`, over the noise.
-    pub(super) fn left_of(&self, at: &FittedRecords, r: usize, steps: Steps) -> Result<Vec<Vec<f64>>, RecordError> {
+    pub(super) fn left_of(
+        &self,
+        at: &FittedRecords,
+        r: usize,
+        steps: Steps,
+    ) -> Result<Vec<Vec<f64>>, RecordDiagnosisError> {
         let response = at.predict_in(steps, self.records, (r, self.samples(r)), &[])?;
         self.over_noise(r, &response.channels)
     }
@@ -120,7 +130,7 @@ impl FitProblem<'_> {
     }
 
     /// What a prediction of a record leaves, over the noise.
-    fn over_noise(&self, r: usize, predicted: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, RecordError> {
+    fn over_noise(&self, r: usize, predicted: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, RecordDiagnosisError> {
         let record = &self.records.list[r];
         let channel_residual = |(c, model): (usize, &Vec<f64>)| {
             let measured = record.samples[c].iter().zip(&record.sigma[c]);
@@ -129,7 +139,7 @@ impl FitProblem<'_> {
         let left: Vec<Vec<f64>> = predicted.iter().enumerate().map(channel_residual).collect();
         if left.iter().flatten().any(|e| !e.is_finite()) {
             let (file, reason) = (record.file.clone(), TransientError::StepFailed);
-            return Err(RecordError::Model { file, reason });
+            return Err(RecordDiagnosisError::Model { file, reason });
         }
         Ok(left)
     }
@@ -141,7 +151,7 @@ impl FitProblem<'_> {
         scales: &[Vec<f64>],
         r: usize,
         steps: Steps,
-    ) -> Result<RecordDerivatives, RecordError> {
+    ) -> Result<RecordDerivatives, RecordDiagnosisError> {
         let unknowns = self.unknowns(at, scales, r);
         let mut parameters: Vec<TransientParameter> = Vec::new();
         for (p, ..) in &unknowns {
@@ -181,7 +191,7 @@ impl FitProblem<'_> {
         r: usize,
         parameters: &[TransientParameter],
         steps: Steps,
-    ) -> Result<(Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>), RecordError> {
+    ) -> Result<(Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>), RecordDiagnosisError> {
         let mut response = at.predict_in(steps, self.records, (r, self.samples(r)), parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         self.whiten(r, &mut response.derivatives);

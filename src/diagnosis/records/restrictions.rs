@@ -7,7 +7,7 @@
 //! `N` and `g` are the normal equations in which all is free. Found once, they weigh every choice of corrections, each of which
 //! would ask for a fit of its own.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{information, scale};
 use super::fitted::FittedRecords;
 use super::normal_equations::{Left, Normal};
@@ -40,12 +40,12 @@ impl<'a> Restrictions<'a> {
     /// The equations at `fit`, whose effects are held.
     ///
     /// # Errors
-    /// [`RecordError`]: a model that cannot be predicted.
-    pub(super) fn new(search: &'a Search<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
+    /// [`RecordDiagnosisError`]: a model that cannot be predicted.
+    pub(super) fn new(search: &'a Search<'a>, fit: &'a FittedRecords) -> Result<Self, RecordDiagnosisError> {
         let count = Free::all(search.whole()).corrections.len();
         let problem = problem(search, vec![true; count]);
         let scales = scales(&fit.effects);
-        let products = |r: usize| -> Result<_, RecordError> {
+        let products = |r: usize| -> Result<_, RecordDiagnosisError> {
             let mut derivatives = problem.derivatives(fit, &scales, r, Steps::Coarse)?;
             derivatives.left = problem.left_of(fit, r, Steps::Fine)?;
             Ok(derivatives.products(1.0))

@@ -9,7 +9,7 @@
 //! corrections, shapes, offsets and initial states are free beside the law. No motion is expanded from few sensors, and a law that
 //! is weak beside the errors of the model is weighed as the fit itself will weigh it; a fit that has lost the phase tells nothing.
 
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::evidence::{evidence, scale};
 use super::fit_motion::{FitMotion, MotionOfDof};
 use super::fitted::FittedRecords;
@@ -69,11 +69,11 @@ impl<'a> ScoreTest<'a> {
     /// Of a fit on the records of `problem`, with what is free there.
     ///
     /// # Errors
-    /// [`RecordError`]: a model that cannot be predicted, equations without a solution.
-    pub(super) fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordError> {
+    /// [`RecordDiagnosisError`]: a model that cannot be predicted, equations without a solution.
+    pub(super) fn new(problem: &'a FitProblem<'a>, fit: &'a FittedRecords) -> Result<Self, RecordDiagnosisError> {
         let records = problem.records;
         let scales = scales(&fit.effects);
-        let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordError> {
+        let made = problem.control.map(records.list.len(), |r| -> Result<_, RecordDiagnosisError> {
             let mut derivatives = problem.derivatives(fit, &scales, r, Steps::Coarse)?;
             derivatives.left = problem.left_of(fit, r, Steps::Fine)?;
             Ok(Thinned::new(derivatives))
@@ -81,7 +81,8 @@ impl<'a> ScoreTest<'a> {
         let thinned: Vec<Thinned> = made.into_iter().collect::<Result<_, _>>()?;
         let products = thinned.iter().map(|t| t.derivatives.products(t.every as f64)).collect();
         let normal = problem.assembled(fit, scale(fit), products);
-        let factored = EquilibratedCholesky::new(normal.matrix.as_ref(), RIDGE).ok_or(RecordError::Singular)?;
+        let factored =
+            EquilibratedCholesky::new(normal.matrix.as_ref(), RIDGE).ok_or(RecordDiagnosisError::Singular)?;
         let step = factored.solve(&normal.gradient);
         let linear = fit.sources(records).into_iter().filter(|s| s.effect.is_linear()).collect();
         let motion = FitMotion::new(records, fit, problem.control)?;
@@ -95,13 +96,13 @@ impl<'a> ScoreTest<'a> {
 
     /// The same beside a fit without the force of one of its laws along the motion that it has with it, to first order; to be made of a
     /// problem in which no parameters of laws are free.
-    pub(super) fn without(mut self, law: &Source) -> Result<Self, RecordError> {
-        let leg = law.place.legs().first().copied().ok_or(RecordError::Singular)?;
+    pub(super) fn without(mut self, law: &Source) -> Result<Self, RecordDiagnosisError> {
+        let leg = law.place.legs().first().copied().ok_or(RecordDiagnosisError::Singular)?;
         let mut back = vec![0.0; self.step.len()];
         for r in 0..self.thinned.len() {
             let (forced, record) = (self.forced(leg, r)?, &self.records.list[r]);
             let Thinned { derivatives, every } = &mut self.thinned[r];
-            let channels = forced.under(law, record, *every).ok_or(RecordError::Singular)?;
+            let channels = forced.under(law, record, *every).ok_or(RecordDiagnosisError::Singular)?;
             let mut by = vec![0.0; derivatives.count];
             for (c, y) in channels.iter().enumerate() {
                 let sigma = record.sigma[c].iter().step_by(*every);
@@ -125,7 +126,7 @@ impl<'a> ScoreTest<'a> {
     /// The shapes of each law at a place, best first; none where the place does not move.
     pub(super) fn shapes_at(&self, place: &Place, laws: &[Effect]) -> Vec<Vec<Scored>> {
         let Some(leg) = place.legs().first().copied() else { return Vec::new() };
-        let made: Result<Vec<Forced>, RecordError> =
+        let made: Result<Vec<Forced>, RecordDiagnosisError> =
             (0..self.thinned.len()).map(|r| self.forced(leg, r)).collect::<Result<_, _>>();
         let (Ok(forced), Some(range)) = (made, self.motion.range(leg)) else { return Vec::new() };
         let all = |effect: &Effect| {
@@ -139,7 +140,7 @@ impl<'a> ScoreTest<'a> {
     }
 
     /// The linear model of record `r` under forces along a leg.
-    fn forced(&self, leg: Leg, r: usize) -> Result<Forced, RecordError> {
+    fn forced(&self, leg: Leg, r: usize) -> Result<Forced, RecordDiagnosisError> {
         let record = &self.records.list[r];
         let drives: Vec<usize> = std::iter::once(leg.first).chain(leg.second).collect();
         let fit = self.fit;
@@ -147,8 +148,8 @@ impl<'a> ScoreTest<'a> {
         let errors = self.records.shape_errors(record, &fit.shapes);
         let setup = self.records.setup(record, &self.linear, fit.factors(r), ([&fit.modes, &fit.damping], &parts));
         let model = TransientModel::new(&TransientSetup { drives: &drives, shape_errors: &errors, ..setup })
-            .map_err(|reason| RecordError::Model { file: record.file.clone(), reason })?;
-        let motion = self.motion.relative(leg, r).ok_or(RecordError::Singular)?;
+            .map_err(|reason| RecordDiagnosisError::Model { file: record.file.clone(), reason })?;
+        let motion = self.motion.relative(leg, r).ok_or(RecordDiagnosisError::Singular)?;
         Ok(Forced { model, motion, drives: drives.len() })
     }
 

@@ -1,7 +1,7 @@
 //! Fits of one effect more: laws at places from which fits begin, fitted on parts of the records, and carried on to longer ones.
 
 use super::compare::first_states;
-use super::data::{RecordData, RecordError, Records};
+use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::laws::laws_seen_in;
@@ -115,13 +115,13 @@ impl Search<'_> {
         start: &FittedRecords,
         share: f64,
         rounds: [usize; 2],
-    ) -> Result<FittedRecords, RecordError> {
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         self.problem(level, share).chord_fit(start, rounds)
     }
 
     /// A fit followed as long as it leaves clearly less: on longer parts of the records one that is on its way down loses the phase, and
     /// ends elsewhere.
-    fn to_its_end(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    fn to_its_end(&self, level: usize, fit: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         let mut fit = fit.clone();
         for _ in 0..LONGEST {
             if misfit(&fit) < AGREES || self.control.is_late() {
@@ -154,7 +154,12 @@ impl Search<'_> {
     }
 
     /// A fit of one level as the start of one of another: initial states that are not known yet are read from the first periods.
-    pub(super) fn carried(&self, fit: &FittedRecords, from: usize, to: usize) -> Result<FittedRecords, RecordError> {
+    pub(super) fn carried(
+        &self,
+        fit: &FittedRecords,
+        from: usize,
+        to: usize,
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         let (known, records) = (&self.levels[from], &self.levels[to]);
         let same = |k: usize| {
             let wanted = &records.list[k];
@@ -177,7 +182,7 @@ impl Search<'_> {
     }
 
     /// Initial states and effects only, nothing corrected.
-    pub(super) fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn quiet(&self, level: usize, start: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         FitProblem { records: &self.levels[level], free: Free::nothing(), share: 1.0, control: self.control }
             .improve(start, 3)
     }
@@ -189,7 +194,7 @@ impl Search<'_> {
         level: usize,
         rivals: &[FittedRecords],
         bare: &FittedRecords,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some(best) = rivals.first() else { return Ok(Vec::new()) };
         let mut found = self.extended(level, best, bare)?;
         let near = |f: &&FittedRecords| {
@@ -211,7 +216,7 @@ impl Search<'_> {
         level: usize,
         best: &FittedRecords,
         bare: &FittedRecords,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         // The first effect is looked for beside the model as it is, whose stiffness is not bent to what is missing.
         let base = if best.effects.is_empty() && level == 0 { bare } else { best };
         let (scored, gain) = self.scored(level, best, &self.all_places(), &self.laws);
@@ -281,7 +286,7 @@ impl Search<'_> {
         &self,
         level: usize,
         mut found: Vec<FittedRecords>,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let law_of_best = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.effect);
         let mut generalised = None;
         // A generalisation may have come further than the special case to which it has converged, and that special case have others.
@@ -318,7 +323,7 @@ impl Search<'_> {
         level: usize,
         mut found: Vec<FittedRecords>,
         starts: &[FittedRecords],
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let fits = |list: &[FittedRecords], rounds| {
             self.control.map(list.len(), |k| self.fit(level, &list[k], 1.0, rounds).ok())
         };

@@ -7,7 +7,7 @@
 //! Corrections mode by mode can stand for any change of mass and stiffness. Where all stiffness, all mass and the known sources do
 //! not suffice, but one mass or spring at one place beside them does, that is said: one number in place of one a mode.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::evidence::{AGREES, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
 use super::part_directions::PART;
@@ -38,13 +38,13 @@ const GAIN: f64 = 12.0;
 impl Search<'_> {
     /// Fits of one mass or spring to whole records, best first, where `corrected` needs more than errors as every model has them and they do
     /// not: in place of the stiffness of single modes, else beside all corrections.
-    pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+    pub(super) fn single_changes(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let alone = self.changes_alone(corrected)?;
         if alone.is_empty() { self.changes_beside(corrected) } else { Ok(alone) }
     }
 
     /// Those beside all corrections, of which one is far beyond what is believed.
-    fn changes_beside(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+    fn changes_beside(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let level = self.levels.len() - 1;
         if misfit(corrected) > AGREES || !self.is_outlying(corrected) || self.control.is_late() {
             return Ok(Vec::new());
@@ -113,7 +113,7 @@ impl Search<'_> {
     }
 
     /// Those in place of the stiffness of single modes, which `corrected` needs.
-    fn changes_alone(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordError> {
+    fn changes_alone(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let records = self.whole();
         let fit = |start: &FittedRecords| {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control: self.control }

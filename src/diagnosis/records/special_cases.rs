@@ -1,7 +1,7 @@
 //! Laws of several parameters that are told as a simpler one: on the motion of their fit they are that one, or the records do not know one of
 //! their sizes.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{evidence, scale};
 use super::fit_motion::FitMotion;
 use super::fitted::FittedRecords;
@@ -24,7 +24,7 @@ impl Search<'_> {
         &self,
         level: usize,
         found: Vec<FittedRecords>,
-    ) -> Result<Vec<FittedRecords>, RecordError> {
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let Some(best) = found.first().filter(|_| !self.control.is_late()) else { return Ok(found) };
         let unit = scale(best);
         let last = evidence(best, unit) + BEHIND;

@@ -7,7 +7,7 @@
 //! corrections would absorb them; the error is predicted without them.
 
 use super::compare::started_from;
-use super::data::{RecordData, RecordError};
+use super::data::{RecordData, RecordDiagnosisError};
 use super::evidence::{AGREES, information, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::problem::{FitProblem, Free, modes};
@@ -40,7 +40,7 @@ struct Choice<'f> {
 
 impl Search<'_> {
     /// `fit` with the corrections that a project can state, its effects fitted beside them; `fit` itself where time is up.
-    pub(super) fn stated_fit(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordError> {
+    pub(super) fn stated_fit(&self, fit: &FittedRecords) -> Result<FittedRecords, RecordDiagnosisError> {
         if self.control.is_late() {
             return Ok(fit.clone());
         }
@@ -62,7 +62,7 @@ impl Search<'_> {
         &self,
         all: &Restrictions,
         choices: impl Iterator<Item = Choice<'f>>,
-    ) -> Result<Option<(FittedRecords, usize)>, RecordError> {
+    ) -> Result<Option<(FittedRecords, usize)>, RecordDiagnosisError> {
         let mut best = None;
         let weights = all.information_of_shifts();
         let mut choices: Vec<(f64, Choice)> =
@@ -164,7 +164,7 @@ impl Search<'_> {
         choice: &Choice,
         weights: &[f64],
         best: &mut Option<(FittedRecords, usize)>,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), RecordDiagnosisError> {
         let mut next = self.fitted_anew(&self.start_of(choice), choice.free.clone())?;
         let mut found = vec![(next.clone(), choice.free.clone())];
         let free = self.kept(&mut next, choice.free.clone());
@@ -204,13 +204,17 @@ impl Search<'_> {
         start
     }
 
-    fn fitted_anew(&self, start: &FittedRecords, corrections: Vec<bool>) -> Result<FittedRecords, RecordError> {
+    fn fitted_anew(
+        &self,
+        start: &FittedRecords,
+        corrections: Vec<bool>,
+    ) -> Result<FittedRecords, RecordDiagnosisError> {
         // The evidence of an effect is that of the fit in which all else was free, or it would absorb what is fixed here.
         let free = Free { corrections, shifts: true, shapes: !self.whole().has_one_shape(), effects: false };
         let problem = FitProblem { records: self.whole(), free, share: 1.0, control: self.control };
         match problem.chord_fit(start, ROUNDS) {
             // A start without its corrections may run away: then it is no rival.
-            Err(RecordError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
+            Err(RecordDiagnosisError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
         }
     }
@@ -243,7 +247,11 @@ impl Search<'_> {
     }
 
     /// What comparing the project shows with the corrections of `stated` and these effects, their parameters as they are.
-    pub(super) fn predicted_error(&self, stated: &FittedRecords, effects: &[Source]) -> Result<f64, RecordError> {
+    pub(super) fn predicted_error(
+        &self,
+        stated: &FittedRecords,
+        effects: &[Source],
+    ) -> Result<f64, RecordDiagnosisError> {
         let mut records = self.plain.clone();
         records.known.extend_from_slice(effects);
         let mut start = FittedRecords {
@@ -257,7 +265,7 @@ impl Search<'_> {
         // From where comparing the project begins, or it might end elsewhere.
         let fitted = started_from(&records, start, &self.control.unhurried());
         match fitted.and_then(|fit| fit.error(&records, 0.0, 1.0)) {
-            Err(RecordError::Model { .. }) => Ok(f64::INFINITY),
+            Err(RecordDiagnosisError::Model { .. }) => Ok(f64::INFINITY),
             other => other,
         }
     }

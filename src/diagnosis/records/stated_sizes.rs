@@ -1,7 +1,7 @@
 //! Effects that are one more of what is stated: a dashpot beside a known one, a mass or a spring of a model of a single shape. Within what is
 //! believed of the stated size they correct it; beyond that all that is more is told as the effect. Records tell the sum alone.
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::problem::cost_of_size;
@@ -39,7 +39,7 @@ impl Search<'_> {
         &self,
         level: usize,
         fit: &FittedRecords,
-    ) -> Result<Option<FittedRecords>, RecordError> {
+    ) -> Result<Option<FittedRecords>, RecordDiagnosisError> {
         let Some(start) = self.with_last_as_correction(fit) else { return Ok(None) };
         let corrected = self.freed(level, &start)?;
         let unit = scale(fit);

@@ -1,6 +1,6 @@
 //! Suggestions and corrections of the model made of fits, with their probabilities and deviations.
 
-use super::data::{RecordError, Records};
+use super::data::{RecordDiagnosisError, Records};
 use super::evidence::{evidence, misfit, parameters, scale};
 use super::fitted::FittedRecords;
 use super::probability::probabilities;
@@ -53,7 +53,7 @@ pub(super) fn suggestions(
     records: &Records,
     found: &[FittedRecords],
     cut_off: bool,
-) -> Result<Vec<Suggestion>, RecordError> {
+) -> Result<Vec<Suggestion>, RecordDiagnosisError> {
     let Some(best) = found.first() else { return Ok(Vec::new()) };
     let unit = scale(best);
     let weights = probabilities(found, cut_off);

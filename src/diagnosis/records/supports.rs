@@ -7,7 +7,7 @@
 //!
 //! `k_s` is the spring in place of the support, `k_hh` the stiffness of the element there ([`Part::Support`]).
 
-use super::data::RecordError;
+use super::data::RecordDiagnosisError;
 use super::evidence::{evidence, scale};
 use super::fitted::FittedRecords;
 use super::model_updating::SHARES;
@@ -32,7 +32,7 @@ type Tried = (f64, FittedRecords);
 
 impl Search<'_> {
     /// Supports that give way, with their factors; empty where that explains nothing.
-    pub(super) fn giving_way(&self, bare: &FittedRecords) -> Result<Vec<Correction>, RecordError> {
+    pub(super) fn giving_way(&self, bare: &FittedRecords) -> Result<Vec<Correction>, RecordDiagnosisError> {
         let supports: Vec<Part> = self.records.structure.supports().into_iter().map(Part::Support).collect();
         if supports.is_empty() || self.records.kept < 2 {
             return Ok(Vec::new());

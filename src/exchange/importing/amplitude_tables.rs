@@ -7,7 +7,7 @@ use super::records::{channels, labels, unused};
 use super::request::{Imported, Request};
 use super::text::{comment, named, points};
 use crate::control::Control;
-use crate::exchange::mapping::{Amplitudes, Proposal, Stepped, sets_with};
+use crate::exchange::mapping::{AmplitudeColumns, Proposal, Stepped, sets_with};
 use crate::exchange::project::plan;
 use crate::math::numerals::counted;
 use crate::measurement::Quantity;
@@ -29,7 +29,7 @@ struct Table {
 pub(super) fn import(
     request: &Request,
     stepped: &Stepped,
-    amplitudes: &Amplitudes,
+    amplitudes: &AmplitudeColumns,
     out: &Path,
     control: &Control,
 ) -> Result<Imported> {
@@ -63,7 +63,7 @@ fn summary(mapping: &Proposal, tables: &[Table], [runs, levels]: [usize; 2], out
     )
 }
 
-fn tables(request: &Request, amplitudes: &Amplitudes) -> Result<Vec<Table>> {
+fn tables(request: &Request, amplitudes: &AmplitudeColumns) -> Result<Vec<Table>> {
     let mut tables = Vec::new();
     for path in &request.files {
         let file = open(path)?;
@@ -81,7 +81,7 @@ fn tables(request: &Request, amplitudes: &Amplitudes) -> Result<Vec<Table>> {
 }
 
 /// Mean amplitude of the first force of a set, in the unit of the file.
-fn mean_force(file: &DataFile, set: &str, amplitudes: &Amplitudes) -> Result<f64> {
+fn mean_force(file: &DataFile, set: &str, amplitudes: &AmplitudeColumns) -> Result<f64> {
     let force = amplitudes.mapping.channels.iter().find(|table| table.quantity == Quantity::Force);
     let sets = file.contents().sets.iter().enumerate();
     let place = sets.filter(|(_, own)| own.name == set).find_map(|(s, own)| {
@@ -104,7 +104,7 @@ fn levels(tables: &[Table]) -> Vec<usize> {
     tables.iter().map(|table| level(table.force)).collect()
 }
 
-fn text(tables: &[Table], amplitudes: &Amplitudes, mapping: &Proposal, out: &Path) -> Result<String> {
+fn text(tables: &[Table], amplitudes: &AmplitudeColumns, mapping: &Proposal, out: &Path) -> Result<String> {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let phases: String =
         amplitudes.phases.iter().map(|(name, phase)| format!("{} = {}\n", quoted(name), quoted(phase))).collect();

@@ -1,7 +1,7 @@
 //! Why files cannot be imported.
 
 use crate::exchange::matrices::TableError;
-use crate::exchange::project::{Problem, ProjectError};
+use crate::exchange::project::{ProjectError, TableProblem};
 use std::path::Path;
 
 /// What an import gives, or why it cannot.
@@ -10,13 +10,13 @@ pub(super) type Result<T, E = ImportError> = std::result::Result<T, E>;
 /// A fault of a measurement without the line of the project that names it: there is no such file for the user to look into.
 fn unwritten(error: &ProjectError) -> String {
     match *error.problem {
-        Problem::Table(_)
-        | Problem::Record(_)
-        | Problem::Frf(_)
-        | Problem::Fit { .. }
-        | Problem::NotSteady { .. }
-        | Problem::Part { .. }
-        | Problem::Transient { .. } => error.problem.to_string(),
+        TableProblem::Table(_)
+        | TableProblem::Record(_)
+        | TableProblem::Frf(_)
+        | TableProblem::Fit { .. }
+        | TableProblem::NotSteady { .. }
+        | TableProblem::Part { .. }
+        | TableProblem::Transient { .. } => error.problem.to_string(),
         _ => format!("{}, which is not written: {}", error.file, error.problem),
     }
 }

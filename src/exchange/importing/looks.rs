@@ -1,6 +1,6 @@
 //! Of what kind a record is by its looks, and which part of it.
 
-use crate::measurement::{Kind, Part, Quantity, Record, fit, frequency, proposal, steady_part};
+use crate::measurement::{Kind, Quantity, Record, TimeSpan, fit, frequency, proposal, steady_part};
 
 /// Share of its largest size that a motion without a force keeps to the end where it is no decay.
 const KEPT: f64 = 0.7;
@@ -10,7 +10,7 @@ const HARMONICS: usize = 3;
 /// What a record of the project looks like.
 pub(super) struct Looks {
     pub kind: Kind,
-    pub part: Part,
+    pub part: TimeSpan,
     pub reason: String,
 }
 
@@ -23,7 +23,8 @@ pub(super) fn look(record: &Record) -> Looks {
     }
     if kind == Kind::Decay {
         // Blocks shorter than a period rise and fall with it.
-        (part, reason) = (Part::default(), "no force is measured, and the motion keeps its size to the end".to_owned());
+        (part, reason) =
+            (TimeSpan::default(), "no force is measured, and the motion keeps its size to the end".to_owned());
     }
     let found = frequency::estimate(record, HARMONICS);
     match found.and_then(|found| fit(record, found.omega, HARMONICS)) {
@@ -35,7 +36,7 @@ pub(super) fn look(record: &Record) -> Looks {
             Looks { kind: Kind::Steady, part, reason }
         }
         Err(error) => {
-            Looks { kind: Kind::Transient, part: Part::default(), reason: format!("it is not steady: {error}") }
+            Looks { kind: Kind::Transient, part: TimeSpan::default(), reason: format!("it is not steady: {error}") }
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::diagnosis::records::amplitude::{AmplitudePoint, Band, amplitude_curve
 use crate::exchange::mapping::units::LabUnit;
 use crate::exchange::mapping::{ChannelTable, NotMapped, Proposal};
 use crate::math::numerals::rounded;
-use crate::measurement::{Kind, Part, Quantity, Record, proposal};
+use crate::measurement::{Kind, Quantity, Record, TimeSpan, proposal};
 use std::f64::consts::TAU;
 
 /// Fewest periods in which a channel must decay.
@@ -99,7 +99,7 @@ fn decaying(record: &Record, channel: usize) -> Option<(f64, f64)> {
     if kind != Kind::Decay {
         return None;
     }
-    let range = Part { end_s: None, ..part }.samples(alone.time());
+    let range = TimeSpan { end_s: None, ..part }.samples(alone.time());
     let signal = alone.samples(0).get(range)?;
     let step = alone.step();
     let near = *peaks(signal, step, 0.5, 1).first()?;

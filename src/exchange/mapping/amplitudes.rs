@@ -5,7 +5,7 @@
 //! Freq (Hz);Force 8 (N);Acc 1 (m/s2);Phase 1 (deg);Acc 3 (m/s2);Phase 3 (deg)
 //! ```
 //!
-//! Amplitudes are channels of the mapping (`[[channel]]`: quantity, DOF, unit, sign, factor); `[harmonics.phases]` says which column
+//! AmplitudeColumns are channels of the mapping (`[[channel]]`: quantity, DOF, unit, sign, factor); `[harmonics.phases]` says which column
 //! holds the phase of which: `Y = A exp(i phi)`, where `phi` is the phase by which the channel leads the force.
 
 use super::guess::place_of;
@@ -35,7 +35,7 @@ const MOST_LEVEL: f64 = 1e9;
 
 /// What the columns of such a table are.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Amplitudes {
+pub struct AmplitudeColumns {
     /// Columns of amplitudes.
     pub mapping: Proposal,
     /// Column of the phase of a channel, by the name of its column.
@@ -53,7 +53,7 @@ pub(crate) struct AmplitudeTable<'a> {
 }
 
 /// The columns of a set, if it is such a table.
-pub(super) fn amplitudes(contents: &Contents, set: &Set) -> Option<Amplitudes> {
+pub(super) fn amplitudes(contents: &Contents, set: &Set) -> Option<AmplitudeColumns> {
     let swept = set.kind == Kind::Spectrum && set.axis_unit.eq_ignore_ascii_case("hz")
         || set.kind == Kind::Table && set.channels.iter().any(|channel| frequency(channel).is_some());
     let (phases, others): (Vec<&Channel>, Vec<&Channel>) = set.channels.iter().partition(|channel| is_phase(channel));
@@ -71,11 +71,11 @@ pub(super) fn amplitudes(contents: &Contents, set: &Set) -> Option<Amplitudes> {
     let complete = mapping.channels.iter().any(|table| is_force(&table))
         && mapping.channels.iter().any(|table| !is_force(&table))
         && mapping.channels.iter().all(|table| is_force(&table) || found.contains_key(&table.name));
-    complete.then_some(Amplitudes { mapping, phases: found })
+    complete.then_some(AmplitudeColumns { mapping, phases: found })
 }
 
 /// Names of the sets of a file that hold all columns.
-pub(crate) fn sets_with<'a>(contents: &'a Contents, table: &Amplitudes) -> Vec<&'a str> {
+pub(crate) fn sets_with<'a>(contents: &'a Contents, table: &AmplitudeColumns) -> Vec<&'a str> {
     let has = |set: &Set, name: &String| set.channels.iter().any(|channel| channel.name == *name);
     let whole = |set: &&Set| {
         table.mapping.channels.iter().all(|channel| has(set, &channel.name))

@@ -14,7 +14,7 @@ mod stepped;
 pub(crate) mod table;
 pub(crate) mod units;
 
-pub use amplitudes::Amplitudes;
+pub use amplitudes::AmplitudeColumns;
 pub(crate) use amplitudes::{AmplitudeTable, read_amplitudes, sets_with};
 pub(crate) use propose::DIRECTION_ASSUMED;
 pub use propose::{FORCE_WITHOUT_PLACE, NotMapped, Proposal, propose};

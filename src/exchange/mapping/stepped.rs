@@ -1,6 +1,6 @@
 //! Whether a table is that of a stepped-sine test, one row a run, and what its columns are proposed to be.
 
-use super::amplitudes::{Amplitudes, amplitudes, frequencies};
+use super::amplitudes::{AmplitudeColumns, amplitudes, frequencies};
 use crate::exchange::records::columns::{Role, role};
 use crate::exchange::records::is_stepped_table;
 use crate::measurement::Quantity;
@@ -30,7 +30,7 @@ pub struct Stepped {
     /// What was assumed.
     pub assumed: Vec<String>,
     /// Mapping and phases of a table that is no CSV in the project's own words; none of one that is.
-    pub amplitudes: Option<Amplitudes>,
+    pub amplitudes: Option<AmplitudeColumns>,
 }
 
 impl Stepped {

@@ -1,6 +1,6 @@
 //! Table `[base]`, and the base of a run.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::{BaseTable, RunTable};
 use super::reader::Table;
 
@@ -11,7 +11,7 @@ pub(super) fn half_a_base(table: &Table<'_>, run: Option<&RunTable>) -> Result<(
         Some((false, true)) => ("base_m_s2", "base"),
         _ => return Ok(()),
     };
-    Err(table.error(key, Problem::HalfAForce { key, other }))
+    Err(table.error(key, TableProblem::HalfAForce { key, other }))
 }
 
 /// Table `[base]`.

@@ -1,6 +1,6 @@
 //! Tables `[[channel]]`: which channel of the laboratory files is which quantity, where.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::Lines;
 use super::reader::{Origin, Table, one_line};
 use crate::exchange::mapping::{ChannelTable, units::LabUnit};
@@ -20,7 +20,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTa
         let same = |other: &ChannelTable| other.channel() == channel.channel() && !apart(other);
         if let Some(first) = channels.iter().position(same) {
             let what = format!("the channel {}", channel.channel());
-            return Err(table.error("dof", Problem::Twice { what, first: lines.of(table.name, first, "") }));
+            return Err(table.error("dof", TableProblem::Twice { what, first: lines.of(table.name, first, "") }));
         }
         channels.push(channel);
         lines.note(&table);
@@ -38,14 +38,15 @@ pub fn template(text: &str, file: &str) -> Result<Vec<ChannelTable>, ProjectErro
     let channels = parse(&Table::root(origin, document.get_ref()), &mut Lines::default())?;
     if channels.is_empty() {
         let (what, example) = ("[[channel]]", "[[channel]] with `name`, `quantity` and `dof`");
-        return Err(ProjectError::new(file, None, Problem::Empty { table: "the template".into(), what, example }));
+        return Err(ProjectError::new(file, None, TableProblem::Empty { table: "the template".into(), what, example }));
     }
     Ok(channels)
 }
 
 fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
     table.only(&KEYS)?;
-    let out = |key: &str, value: String, range| table.error(key, Problem::OutOfRange { key: key.into(), value, range });
+    let out =
+        |key: &str, value: String, range| table.error(key, TableProblem::OutOfRange { key: key.into(), value, range });
     let sign = table.whole("sign")?;
     if let Some(value) = sign.filter(|sign| sign.abs() != 1) {
         return Err(out("sign", value.to_string(), "1 or -1"));
@@ -61,7 +62,9 @@ fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
         unit.as_deref().filter(|unit| LabUnit::from_name(unit).is_none_or(|unit| !unit.measures(quantity)))
     {
         let allowed = LabUnit::names_of(quantity).to_owned();
-        return Err(table.error("unit", Problem::NotAllowed { key: "unit".into(), value: one_line(value), allowed }));
+        return Err(
+            table.error("unit", TableProblem::NotAllowed { key: "unit".into(), value: one_line(value), allowed })
+        );
     }
     Ok(ChannelTable {
         name: table.need("name", "name = \"Acc 7\"", table.text("name")?)?,
@@ -81,7 +84,7 @@ fn place(table: &Table<'_>, quantity: Quantity) -> Result<String, ProjectError> 
     if quantity != Quantity::Base {
         if let Some(value) = table.text("direction")? {
             let allowed = "`dof` in its place: a direction is that of quantity \"base\"".to_owned();
-            return Err(table.error("direction", Problem::NotAllowed { key: "direction".into(), value, allowed }));
+            return Err(table.error("direction", TableProblem::NotAllowed { key: "direction".into(), value, allowed }));
         }
         return table.need("dof", "dof = 7", table.label("dof")?);
     }

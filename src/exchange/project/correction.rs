@@ -1,7 +1,7 @@
 //! Tables `[[structure.correction]]`: factors on parts of the structure for which the project has no number of its own,
 //! such as the stiffness of a mode or of a range of elements; what model updating found.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::keys_of::keys_of;
 use super::label::Label;
 use super::lines::Lines;
@@ -31,7 +31,7 @@ pub enum Corrected {
 
 impl Corrected {
     /// Whether a part of this kind is named by `key`.
-    fn takes(self, key: &str) -> Result<(), Problem> {
+    fn takes(self, key: &str) -> Result<(), TableProblem> {
         let own = match self {
             Self::Stiffness | Self::Mass => "",
             Self::Mode | Self::ModeDamping | Self::ModeDampingPerOctave => "mode",
@@ -41,7 +41,7 @@ impl Corrected {
         };
         let table = format!("[[structure.correction]] of what = \"{}\"", keys_of::<Self>()[self as usize]);
         let hint = if own.is_empty() { "leave it out".to_owned() } else { format!("its part is named by `{own}`") };
-        let problem = Problem::UnknownKey { table, key: key.to_owned(), hint };
+        let problem = TableProblem::UnknownKey { table, key: key.to_owned(), hint };
         if own == key { Ok(()) } else { Err(problem) }
     }
 }
@@ -96,28 +96,29 @@ impl CorrectionTable {
     /// The part of `structure` that it names.
     ///
     /// # Errors
-    /// [`Problem`] where the structure has no such part.
-    pub fn part(&self, structure: &Structure) -> Result<Part, Problem> {
-        let missing = |key, example: &str| Problem::MissingKey {
+    /// [`TableProblem`] where the structure has no such part.
+    pub fn part(&self, structure: &Structure) -> Result<Part, TableProblem> {
+        let missing = |key, example: &str| TableProblem::MissingKey {
             table: "[[structure.correction]]".to_owned(),
             key,
             example: example.to_owned(),
         };
-        let dof = |label: &Label| structure.require_dof(&label.0).map_err(|error| Problem::Structure(Box::new(error)));
-        let range = || -> Result<[usize; 2], Problem> {
+        let dof =
+            |label: &Label| structure.require_dof(&label.0).map_err(|error| TableProblem::Structure(Box::new(error)));
+        let range = || -> Result<[usize; 2], TableProblem> {
             let [first, last] = self.elements.ok_or_else(|| missing("elements", "elements = [1, 4]"))?;
             let count = structure.elements().len() as i64;
             if first >= 1 && first <= last && last <= count {
                 return Ok([first as usize - 1, last as usize - 1]);
             }
             let value = format!("[{first}, {last}]");
-            Err(Problem::OutOfRange { key: "elements".into(), value, range: "first to last element of the beam" })
+            Err(TableProblem::OutOfRange { key: "elements".into(), value, range: "first to last element of the beam" })
         };
         let mode = || match self.mode {
             Some(mode) if mode >= 1 && mode <= structure.len() as i64 => Ok(mode as usize - 1),
             Some(mode) => {
                 let value = mode.to_string();
-                Err(Problem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" })
+                Err(TableProblem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" })
             }
             None => Err(missing("mode", "mode = 2")),
         };
@@ -142,7 +143,7 @@ impl CorrectionTable {
                 let node = self.node.as_ref().ok_or_else(|| missing("node", "node = \"0\""))?;
                 let held = structure.supports().into_iter().find(|&h| structure.held_node(h) == Some(&node.0));
                 let value = node.0.clone();
-                Part::Support(held.ok_or(Problem::OutOfRange {
+                Part::Support(held.ok_or(TableProblem::OutOfRange {
                     key: "node".into(),
                     value,
                     range: "the node of a clamped or pinned end of the beam",
@@ -162,7 +163,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
         let factor = table.need("factor", "factor = 1.02", table.number("factor")?)?;
         if !FACTORS.contains(&factor) {
             let (key, value, range) = ("factor".to_owned(), factor.to_string(), "from 1e-9 to 1e9");
-            return Err(table.error("factor", Problem::OutOfRange { key, value, range }));
+            return Err(table.error("factor", TableProblem::OutOfRange { key, value, range }));
         }
         let (elements, mode) = (super::keys::elements(&table)?, table.whole("mode")?);
         let node = table.label("node")?.map(Label);
@@ -180,7 +181,7 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
 ///
 /// # Errors
 /// The number of the table, from 0, and what is wrong with it.
-pub(crate) fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Structure, (usize, Problem)> {
+pub(crate) fn corrected(structure: Structure, tables: &[CorrectionTable]) -> Result<Structure, (usize, TableProblem)> {
     if tables.is_empty() {
         return Ok(structure);
     }

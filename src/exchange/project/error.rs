@@ -18,11 +18,11 @@ pub struct ProjectError {
     /// Line of the file, from 1, where one is at fault.
     pub line: Option<usize>,
     /// What is wrong.
-    pub problem: Box<Problem>,
+    pub problem: Box<TableProblem>,
 }
 
 impl ProjectError {
-    pub(super) fn new(file: &str, line: Option<usize>, problem: Problem) -> Self {
+    pub(super) fn new(file: &str, line: Option<usize>, problem: TableProblem) -> Self {
         Self { file: file.to_owned(), line, problem: Box::new(problem) }
     }
 }
@@ -30,7 +30,7 @@ impl ProjectError {
 impl fmt::Display for ProjectError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Tables and records name their own file and line, which is where the user must look.
-        if matches!(*self.problem, Problem::Table(_) | Problem::Record(_)) {
+        if matches!(*self.problem, TableProblem::Table(_) | TableProblem::Record(_)) {
             return write!(f, "{}", self.problem);
         }
         match self.line {
@@ -46,7 +46,7 @@ impl std::error::Error for ProjectError {}
 /// What is wrong with a project.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say it")]
-pub enum Problem {
+pub enum TableProblem {
     #[error("cannot be read: {reason}; check the path")]
     Unreadable { reason: String },
     #[error("byte {position} is not UTF-8; save the project as UTF-8 text")]

@@ -1,6 +1,6 @@
 //! `excitation = { ... }` of a run: what `simulate` does to the structure in a test that is not steady.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::label::Label;
 use super::reader::Table;
 use crate::response::recording::Loading;
@@ -127,5 +127,5 @@ fn positive(table: &Table<'_>, key: &'static str, example: &str) -> Result<f64, 
 }
 
 fn out_of_range(table: &Table<'_>, key: &str, value: f64, range: &'static str) -> ProjectError {
-    table.error(key, Problem::OutOfRange { key: key.into(), value: value.to_string(), range })
+    table.error(key, TableProblem::OutOfRange { key: key.into(), value: value.to_string(), range })
 }

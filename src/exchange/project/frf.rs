@@ -1,6 +1,6 @@
 //! Tables `[[frf]]`: measured frequency responses as runs.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::label::Label;
 use super::lines::Lines;
 use super::reader::{Origin, Table};
@@ -115,7 +115,7 @@ fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
     table.only(&KEYS)?;
     let scale = table.number("scale")?;
     if scale == Some(0.0) {
-        let problem = Problem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
+        let problem = TableProblem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
         return Err(table.error("scale", problem));
     }
     Ok(FrfTable {
@@ -159,7 +159,8 @@ fn step(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
     let step = table.number("step_hz")?;
     match step.filter(|step| *step <= 0.0) {
         Some(value) => {
-            let problem = Problem::OutOfRange { key: "step_hz".into(), value: value.to_string(), range: "above 0 Hz" };
+            let problem =
+                TableProblem::OutOfRange { key: "step_hz".into(), value: value.to_string(), range: "above 0 Hz" };
             Err(table.error("step_hz", problem))
         }
         None => Ok(step),
@@ -173,7 +174,7 @@ fn band(table: &Table<'_>) -> Result<Option<[f64; 2]>, ProjectError> {
         _ => {
             let value = format!("{numbers:?}");
             let range = "two ascending frequencies in Hz, such as [5, 400]";
-            Err(table.error("band", Problem::OutOfRange { key: "band".into(), value, range }))
+            Err(table.error("band", TableProblem::OutOfRange { key: "band".into(), value, range }))
         }
     }
 }

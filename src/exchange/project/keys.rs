@@ -1,6 +1,6 @@
 //! Keys that several tables share: ranges of elements, delays, numbers above zero.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::reader::Table;
 
 /// `elements = [first, last]`, from 1.
@@ -10,7 +10,7 @@ pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectErr
         [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
         _ => {
             let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
-            Err(table.error("elements", Problem::WrongType { key: "elements".into(), expected, found }))
+            Err(table.error("elements", TableProblem::WrongType { key: "elements".into(), expected, found }))
         }
     }
 }
@@ -24,7 +24,7 @@ pub(super) fn delay(table: &Table<'_>) -> Result<Option<f64>, ProjectError> {
     match given.filter(|value| value.abs() > LONGEST_DELAY) {
         Some(value) => {
             let (key, value, range) = ("delay".to_owned(), value.to_string(), "from -60 s to 60 s");
-            Err(table.error("delay", Problem::OutOfRange { key, value, range }))
+            Err(table.error("delay", TableProblem::OutOfRange { key, value, range }))
         }
         None => Ok(given),
     }
@@ -40,7 +40,7 @@ pub(super) fn above_zero(
     match given.filter(|value| *value <= 0.0) {
         Some(value) => {
             let (name, value) = (key.to_owned(), value.to_string());
-            Err(table.error(key, Problem::OutOfRange { key: name, value, range }))
+            Err(table.error(key, TableProblem::OutOfRange { key: name, value, range }))
         }
         None => Ok(given),
     }

@@ -1,6 +1,6 @@
 //! Where every key of a project file stood, for messages about what is found wrong later.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::reader::Table;
 use std::collections::BTreeMap;
 
@@ -40,7 +40,7 @@ impl At<'static> {
 
 impl At<'_> {
     /// The problem at a key of table number `k` of a name, or at the table's head.
-    pub(super) fn error(self, name: &str, k: usize, key: &str, problem: Problem) -> ProjectError {
+    pub(super) fn error(self, name: &str, k: usize, key: &str, problem: TableProblem) -> ProjectError {
         ProjectError::new(self.file, self.lines.of(name, k, key), problem)
     }
 }

@@ -1,6 +1,6 @@
 //! Reads and fits the records of a project and corrects them for the known errors of their channels.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::HarmonicsTable;
 use super::plan::{Fitted, Plan, open};
 use crate::control::Control;
@@ -31,7 +31,7 @@ impl Plan {
     /// [`ProjectError`] for records that cannot be read or fitted, and for projects that measure nothing.
     pub fn load(self, control: &Control) -> Result<Project, ProjectError> {
         if self.runs.is_empty() && self.file.harmonics.is_empty() && self.file.frf.is_empty() {
-            return Err(self.error(None, Problem::NothingMeasured));
+            return Err(self.error(None, TableProblem::NothingMeasured));
         }
         let (mut runs, transient_runs) = self.records(control)?;
         let corrections = self.corrections();
@@ -65,7 +65,7 @@ impl Plan {
         let mut runs = Vec::with_capacity(self.runs.len());
         let mut transient_runs = Vec::new();
         for index in 0..self.runs.len() {
-            control.check().map_err(|_| self.error(None, Problem::Cancelled))?;
+            control.check().map_err(|_| self.error(None, TableProblem::Cancelled))?;
             let piece = control.piece(index, self.runs.len());
             if self.file.is_steady(self.runs[index].kind) {
                 runs.push(self.run(index, &piece)?);
@@ -89,7 +89,7 @@ impl Plan {
         let wrong = |problem| self.error(self.lines.of("[[harmonics]]", index, ""), problem);
         let path = self.path.parent().unwrap_or(Path::new("")).join(&table.file);
         if !path.is_file() {
-            return Err(wrong(Problem::NoRecord { file: table.file.clone() }));
+            return Err(wrong(TableProblem::NoRecord { file: table.file.clone() }));
         }
         let (set, phase_of) = (table.set.as_deref(), table.phase_of);
         let read = if table.phases.is_empty() {
@@ -99,7 +99,7 @@ impl Plan {
             let (channels, phases) = (&self.file.channel, &table.phases);
             read_amplitudes(&path, AmplitudeTable { channels, phases, set, phase_of }, &self.structure)
         };
-        let read = read.map_err(|error| wrong(Problem::Record(Box::new(error))))?;
+        let read = read.map_err(|error| wrong(TableProblem::Record(Box::new(error))))?;
         Ok(read.into_iter().map(|run| fitted(table, run)).collect())
     }
 
@@ -112,7 +112,7 @@ impl Plan {
         let mut record = self.record(index, control)?;
         if !planned.part.is_whole() {
             let range = planned.part.samples(record.time());
-            let wrong = |error| Problem::Part { file: planned.name(), error };
+            let wrong = |error| TableProblem::Part { file: planned.name(), error };
             record = record.part(range).map_err(|error| self.run_error(index, "start_s", wrong(error)))?;
         }
         let (file, settings) = (planned.name(), self.settings());
@@ -126,8 +126,10 @@ impl Plan {
                     let key = if frequency_hz.is_some() { "frequency" } else { "file" };
                     let (file, looks_like) = (planned.name(), propose(&record));
                     let problem = match looks_like {
-                        Proposal { kind: Kind::Steady, .. } => Problem::Fit { file, error },
-                        Proposal { kind, reason, .. } => Problem::NotSteady { file, error, kind: kind.name(), reason },
+                        Proposal { kind: Kind::Steady, .. } => TableProblem::Fit { file, error },
+                        Proposal { kind, reason, .. } => {
+                            TableProblem::NotSteady { file, error, kind: kind.name(), reason }
+                        }
                     };
                     self.run_error(index, key, problem)
                 })?;
@@ -153,7 +155,7 @@ impl Plan {
         let mut run = TransientRun::new(label, Arc::new(record), &self.corrections_in(planned.set.as_deref()))
             .map_err(|error| {
                 let key = if matches!(error, TransientRunError::PartTooShort { .. }) { "start_s" } else { "file" };
-                self.run_error(index, key, Problem::Transient { file: planned.name(), error })
+                self.run_error(index, key, TableProblem::Transient { file: planned.name(), error })
             })?;
         if self.structure.kind() == StructureKind::Component {
             // A testing machine may move it in any way.
@@ -216,7 +218,7 @@ impl Plan {
             if !channels.contains(name) {
                 let sensor = self.file.sensor.iter().position(|table| table.channel.trim() == name);
                 let line = sensor.and_then(|k| self.lines.of("[[sensor]]", k, ""));
-                return Err(self.error(line, Problem::NoSuchChannel { channel: name.clone() }));
+                return Err(self.error(line, TableProblem::NoSuchChannel { channel: name.clone() }));
             }
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Runs of a structure on a moving base: their base channels become forces ([`crate::measurement::base`],
 //! [`crate::measurement::base_in_time`]).
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::BaseResponse;
 use super::plan::Plan;
 use crate::measurement::base::{AXES, Base, driven};
@@ -21,7 +21,7 @@ impl Plan {
     /// The run with its base channels turned into forces and its motions relative to the base; as it is without any.
     ///
     /// # Errors
-    /// [`Problem::BaseWithoutMass`] for a structure without mass.
+    /// [`TableProblem::BaseWithoutMass`] for a structure without mass.
     pub fn on_its_base(&self, index: Option<usize>, mut run: Run) -> Result<Run, ProjectError> {
         let moving = run.fit.channels.iter().filter(|c| c.channel.quantity == Quantity::Base);
         let axes: Vec<usize> = moving.filter_map(|c| AXES.iter().position(|&axis| axis == c.channel.label)).collect();
@@ -29,7 +29,7 @@ impl Plan {
             return Ok(run);
         }
         let bases: Option<Vec<Base>> = axes.into_iter().map(|axis| base(&self.structure, axis)).collect();
-        let missing = || self.error(None, Problem::BaseWithoutMass { file: run.file.clone() });
+        let missing = || self.error(None, TableProblem::BaseWithoutMass { file: run.file.clone() });
         let bases = bases.ok_or_else(missing)?;
         let response = index.map_or(self.file.base.response, |index| self.runs[index].response);
         run.fit = driven(run.fit, &bases, response == BaseResponse::Absolute);
@@ -40,7 +40,7 @@ impl Plan {
     /// The same of a run that is not steady.
     ///
     /// # Errors
-    /// [`Problem::BaseWithoutMass`] for a structure without mass, [`Problem::RidesOnBase`] for absolute displacements and velocities.
+    /// [`TableProblem::BaseWithoutMass`] for a structure without mass, [`TableProblem::RidesOnBase`] for absolute displacements and velocities.
     pub(super) fn in_time_on_its_base(
         &self,
         index: usize,
@@ -52,12 +52,12 @@ impl Plan {
             return Ok(run);
         }
         let bases: Option<Vec<Base>> = axes.into_iter().map(|axis| base(&self.structure, axis)).collect();
-        let missing = || self.run_error(index, "file", Problem::BaseWithoutMass { file: run.file.clone() });
+        let missing = || self.run_error(index, "file", TableProblem::BaseWithoutMass { file: run.file.clone() });
         let bases = bases.ok_or_else(missing)?;
         let is_absolute = self.runs[index].response == BaseResponse::Absolute;
         let rides = |channel: Channel| {
             let (file, channel) = (run.file.clone(), channel.to_string());
-            self.run_error(index, "file", Problem::RidesOnBase { file, channel })
+            self.run_error(index, "file", TableProblem::RidesOnBase { file, channel })
         };
         run.on_moving_base = true;
         run.record = Arc::new(driven_in_time(&run.record, &bases, is_absolute).map_err(rides)?);

@@ -1,6 +1,6 @@
 //! Frequency responses of a project, read and made runs of.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::plan::Plan;
 use crate::control::Control;
 use crate::exchange::frf::read_test;
@@ -18,13 +18,13 @@ impl Plan {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let files: Vec<&String> = table.files().collect();
         if let Some(missing) = files.iter().find(|file| !folder.join(file).is_file()) {
-            return Err(wrong(Problem::NoRecord { file: (*missing).clone() }));
+            return Err(wrong(TableProblem::NoRecord { file: (*missing).clone() }));
         }
         let (set, faults) = read_test(folder, &files, &table.source(), &self.structure, control)
-            .map_err(|error| wrong(Problem::Frf(Box::new(error))))?;
+            .map_err(|error| wrong(TableProblem::Frf(Box::new(error))))?;
         let mut chosen = set.runs(table.selection(), table.enabled, &self.corrections());
         if chosen.runs.is_empty() {
-            return Err(wrong(Problem::NoLines { file: table.file.clone() }));
+            return Err(wrong(TableProblem::NoLines { file: table.file.clone() }));
         }
         chosen.remarks.extend(faults);
         Ok(chosen)

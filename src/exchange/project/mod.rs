@@ -35,7 +35,7 @@ pub(crate) mod sources;
 pub(crate) mod structure;
 
 pub use channel::template;
-pub use error::{Problem, ProjectError};
+pub use error::{ProjectError, TableProblem};
 pub use file::{Lines, ProjectFile};
 pub use frf::frf_template;
 pub use load::load;

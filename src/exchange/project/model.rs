@@ -1,11 +1,11 @@
 //! A structure from the files of a finite-element program, whole or reduced.
 
-use super::error::Problem;
+use super::error::TableProblem;
 use super::file::MatricesTable;
 use super::reduce::ReduceTable;
 use crate::exchange::matrices::model::{Model, ModelFiles, full, is_model, read_model};
 use crate::structure::imported::{ImportedDof, ImportedParameters};
-use crate::structure::reduction::{Method, Reduction, Wanted, reduce};
+use crate::structure::reduction::{Reduction, ReductionMethod, Wanted, reduce};
 use crate::structure::{Direction, LumpedMass, MOST_DOFS, Node, Structure, StructureError};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -22,7 +22,7 @@ pub(super) fn structure(
     folder: &Path,
     lumped: &[LumpedMass],
     named: &[String],
-) -> Result<Structure, Problem> {
+) -> Result<Structure, TableProblem> {
     let beside = |name: &String| folder.join(name);
     let (mass, stiffness) = (beside(&files.mass), beside(&files.stiffness));
     let [nodes, dofs, lines] = [&files.nodes, &files.dofs, &files.lines].map(|name| name.as_ref().map(beside));
@@ -33,9 +33,9 @@ pub(super) fn structure(
         dofs: dofs.as_deref(),
         lines: lines.as_deref(),
     })
-    .map_err(Problem::Table)?;
+    .map_err(TableProblem::Table)?;
     let (mut notes, turned) = (std::mem::take(&mut model.notes), std::mem::take(&mut model.turned));
-    let wrong = |error: StructureError| Problem::Structure(Box::new(error));
+    let wrong = |error: StructureError| TableProblem::Structure(Box::new(error));
     let (parameters, reduction) = match &files.reduce {
         None => (whole(model).map_err(wrong)?, None),
         Some(table) => {
@@ -100,7 +100,7 @@ fn reduced(
     kept.extend(named.iter().filter_map(|label| rows.get(label).copied()));
     kept.sort_unstable();
     kept.dedup();
-    let method = Method::from_name(&table.method).unwrap_or(Method::CraigBampton);
+    let method = ReductionMethod::from_name(&table.method).unwrap_or(ReductionMethod::CraigBampton);
     let band_hz = table.band_hz.unwrap_or(0.5 * table.up_to_hz);
     let wanted = Wanted { method, up_to_hz: table.up_to_hz, band_hz, error: table.error.unwrap_or(USUAL_ERROR) };
     let directions: Vec<Direction> = dofs.iter().map(|dof| dof.direction).collect();

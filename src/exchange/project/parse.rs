@@ -1,6 +1,6 @@
 //! From text to [`ProjectFile`]: every key known, every value of its type; nothing else is read.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::{
     CandidatesTable, FORMAT, Header, Lines, MatricesTable, PointsTable, ProjectFile, SensorTable, Shape, SimulateTable,
     SourceTable, StructureTable,
@@ -84,10 +84,10 @@ fn header(root: &Table<'_>) -> Read<Header> {
     let table = root.need("project", "[project]", root.table("project", "[project]")?)?;
     let format = table.need("format", "format = 1", table.whole("format")?)?;
     if format.unsigned_abs() > FORMAT && format > 0 {
-        return Err(table.error("format", Problem::Newer { found: format.unsigned_abs() }));
+        return Err(table.error("format", TableProblem::Newer { found: format.unsigned_abs() }));
     }
     if format < 1 {
-        let problem = Problem::OutOfRange { key: "format".into(), value: format.to_string(), range: "1" };
+        let problem = TableProblem::OutOfRange { key: "format".into(), value: format.to_string(), range: "1" };
         return Err(table.error("format", problem));
     }
     table.only_in::<Header>(&[])?;
@@ -239,7 +239,9 @@ fn analysis(root: &Table<'_>) -> Read<Settings> {
     if let Some(value) = table.number("stop_angle_deg")? {
         if !(0.0..=90.0).contains(&value) {
             let (key, range) = ("stop_angle_deg".to_owned(), "between 0 and 90 degrees");
-            return Err(table.error("stop_angle_deg", Problem::OutOfRange { key, value: value.to_string(), range }));
+            return Err(
+                table.error("stop_angle_deg", TableProblem::OutOfRange { key, value: value.to_string(), range })
+            );
         }
         settings.stop_angle_deg = value;
     }
@@ -259,7 +261,7 @@ fn simulate(root: &Table<'_>, lines: &mut Lines) -> Read<SimulateTable> {
     recipe.rate_hz = table.number("rate_hz")?;
     if let Some(value) = recipe.rate_hz.filter(|rate| *rate <= 0.0) {
         let (key, range) = ("rate_hz".to_owned(), "above 0 Hz");
-        return Err(table.error("rate_hz", Problem::OutOfRange { key, value: value.to_string(), range }));
+        return Err(table.error("rate_hz", TableProblem::OutOfRange { key, value: value.to_string(), range }));
     }
     recipe.bits = table.count("bits", 4, 32, "between 4 and 32")?.map(|bits| bits as u32);
     recipe.filter = table.flag("filter")?.unwrap_or(true);

@@ -1,6 +1,6 @@
 //! A project before its records are read: what `simulate` needs, and the first half of loading.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::excitation::ExcitationTable;
 use super::file::{BaseResponse, Lines, ProjectFile, RunTable, SimulateTable};
 use super::kept;
@@ -17,7 +17,7 @@ use crate::exchange::mapping::{ChannelTable, Template, read_mapped, reads_as_own
 use crate::exchange::records::{RecordFileError, RecordProblem, read_record_with};
 use crate::identify::Settings;
 use crate::measurement::base::AXES;
-use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Part, Quantity, Record, Run};
+use crate::measurement::{ChannelCorrection, ChannelName, HarmonicFit, Kind, Quantity, Record, Run, TimeSpan};
 use crate::response::recording::Loading;
 use crate::structure::Structure;
 use std::borrow::Cow;
@@ -59,8 +59,8 @@ pub struct PlannedRun {
     pub frequency_hz: Option<f64>,
     /// Kind of the run.
     pub kind: Kind,
-    /// Part of the record that is used.
-    pub part: Part,
+    /// TimeSpan of the record that is used.
+    pub part: TimeSpan,
     /// Time constant of an exponential window over the motion, s.
     pub exponential_window_s: Option<f64>,
     /// Label of the force level.
@@ -156,9 +156,9 @@ pub struct PlannedForce {
 pub fn open(path: &Path) -> Result<Plan, ProjectError> {
     let name = path.display().to_string();
     let wrong = |problem| ProjectError::new(&name, None, problem);
-    let bytes = std::fs::read(path).map_err(|error| wrong(Problem::Unreadable { reason: error.to_string() }))?;
+    let bytes = std::fs::read(path).map_err(|error| wrong(TableProblem::Unreadable { reason: error.to_string() }))?;
     let text = String::from_utf8(bytes)
-        .map_err(|error| wrong(Problem::NotText { position: error.utf8_error().valid_up_to() + 1 }))?;
+        .map_err(|error| wrong(TableProblem::NotText { position: error.utf8_error().valid_up_to() + 1 }))?;
     plan(&text, path)
 }
 
@@ -179,10 +179,10 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
         if let Some(first) = runs.iter().position(|other| is_same(other, table)) {
             let what = format!("the record \"{}\"", table.file);
             let first = at.lines.of(RUN, first, "file");
-            return Err(at.error(RUN, i, "file", Problem::Twice { what, first }));
+            return Err(at.error(RUN, i, "file", TableProblem::Twice { what, first }));
         }
         let row = |label: &Label, key: &str| {
-            let wrong = |error| at.error(RUN, i, key, Problem::Structure(Box::new(error)));
+            let wrong = |error| at.error(RUN, i, key, TableProblem::Structure(Box::new(error)));
             structure.require_dof(&label.0).map_err(wrong)
         };
         let force = match (&table.force_dof, table.force_n) {
@@ -199,7 +199,7 @@ fn runs(file: &ProjectFile, structure: &Structure, folder: &Path, at: At<'_>) ->
             path: folder.join(&table.file),
             frequency_hz: table.frequency,
             kind: table.kind,
-            part: Part { start_s: table.start_s, end_s: table.end_s },
+            part: TimeSpan { start_s: table.start_s, end_s: table.end_s },
             exponential_window_s: table.exponential_window_s,
             level: table.level,
             session: table.session.clone(),
@@ -223,7 +223,7 @@ fn is_same(run: &PlannedRun, table: &RunTable) -> bool {
     run.file == table.file
         && run.set == table.set
         && run.sets == table.sets
-        && run.part == Part { start_s: table.start_s, end_s: table.end_s }
+        && run.part == TimeSpan { start_s: table.start_s, end_s: table.end_s }
 }
 
 fn planned_base(table: &RunTable) -> Option<PlannedBase> {
@@ -232,13 +232,13 @@ fn planned_base(table: &RunTable) -> Option<PlannedBase> {
 }
 
 /// Checks the channels that `simulate` is to record.
-fn recorded(channels: &[String], structure: &Structure) -> Result<(), Problem> {
+fn recorded(channels: &[String], structure: &Structure) -> Result<(), TableProblem> {
     for text in channels {
-        let name = ChannelName::parse(text).map_err(|error| Problem::Channel(Box::new(error)))?;
+        let name = ChannelName::parse(text).map_err(|error| TableProblem::Channel(Box::new(error)))?;
         if name.quantity == Quantity::Base {
             continue;
         }
-        structure.require_dof(&name.label).map_err(|error| Problem::Structure(Box::new(error)))?;
+        structure.require_dof(&name.label).map_err(|error| TableProblem::Structure(Box::new(error)))?;
     }
     Ok(())
 }
@@ -289,24 +289,24 @@ impl Plan {
     }
 
     /// The problem at a key of run number `run`.
-    pub(super) fn run_error(&self, run: usize, key: &str, problem: Problem) -> ProjectError {
+    pub(super) fn run_error(&self, run: usize, key: &str, problem: TableProblem) -> ProjectError {
         self.error(self.lines.of(RUN, run, key), problem)
     }
 
-    pub(super) fn error(&self, line: Option<usize>, problem: Problem) -> ProjectError {
+    pub(super) fn error(&self, line: Option<usize>, problem: TableProblem) -> ProjectError {
         ProjectError::new(&self.path.display().to_string(), line, problem)
     }
 
     /// Checks that every record, put into another folder under its name, stays inside that folder.
     ///
     /// # Errors
-    /// [`Problem::OutsideFolder`] for a name that is absolute or goes up.
+    /// [`TableProblem::OutsideFolder`] for a name that is absolute or goes up.
     pub fn records_stay_inside(&self) -> Result<(), ProjectError> {
         let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
         match self.runs.iter().position(|run| !Path::new(&run.file).components().all(inside)) {
             Some(run) => {
                 let file = self.runs[run].file.clone();
-                Err(self.run_error(run, "file", Problem::OutsideFolder { file }))
+                Err(self.run_error(run, "file", TableProblem::OutsideFolder { file }))
             }
             None => Ok(()),
         }
@@ -323,7 +323,7 @@ impl Plan {
             if all.iter().all(|table| table.name != *name) {
                 let names: Vec<String> = all.iter().take(12).map(|table| format!("\"{}\"", table.name)).collect();
                 let allowed = format!("the name of a [[channel]]: {}", names.join(", "));
-                let problem = Problem::NotAllowed { key: "dofs".to_owned(), value: name.clone(), allowed };
+                let problem = TableProblem::NotAllowed { key: "dofs".to_owned(), value: name.clone(), allowed };
                 return Err(self.run_error(run, "dofs", problem));
             }
             own.iter_mut().filter(|table| table.name == *name).for_each(|table| table.dof.clone_from(&label.0));
@@ -340,7 +340,7 @@ impl Plan {
         if !planned.path.is_file() {
             let file = planned.file.clone();
             let simulated = planned.force.is_some() || planned.base.is_some() || planned.test.is_some();
-            let problem = if simulated { Problem::NotSimulated { file } } else { Problem::NoRecord { file } };
+            let problem = if simulated { TableProblem::NotSimulated { file } } else { TableProblem::NoRecord { file } };
             return Err(self.run_error(run, "file", problem));
         }
         let channels = self.channels_of(run)?;
@@ -356,6 +356,6 @@ impl Plan {
             read_mapped(&planned.path, template, &self.structure)
         };
         read.and_then(|record| measurable(record, &planned.path))
-            .map_err(|error| self.run_error(run, "file", Problem::Record(Box::new(error))))
+            .map_err(|error| self.run_error(run, "file", TableProblem::Record(Box::new(error))))
     }
 }

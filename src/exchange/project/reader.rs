@@ -1,6 +1,6 @@
 //! Reads values from parsed TOML by key, with the line of everything that is wrong.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::keys_of::keys_of;
 use crate::math::GREATEST;
 use serde::de::DeserializeOwned;
@@ -26,7 +26,7 @@ impl<'a> Origin<'a> {
             let start = error.span().map_or(0, |span| span.start);
             let at_backslash = self.is_at_backslash(start);
             let message = if at_backslash { BACKSLASH.to_owned() } else { one_line(error.message()) };
-            self.error(start, Problem::Syntax { message })
+            self.error(start, TableProblem::Syntax { message })
         })
     }
 
@@ -43,7 +43,7 @@ impl<'a> Origin<'a> {
     }
 
     /// The problem at a byte of the text.
-    pub(super) fn error(self, offset: usize, problem: Problem) -> ProjectError {
+    pub(super) fn error(self, offset: usize, problem: TableProblem) -> ProjectError {
         ProjectError::new(self.file, Some(self.line(offset)), problem)
     }
 }
@@ -81,7 +81,7 @@ impl<'a> Table<'a> {
     }
 
     /// The problem at a key.
-    pub(super) fn error(&self, key: &str, problem: Problem) -> ProjectError {
+    pub(super) fn error(&self, key: &str, problem: TableProblem) -> ProjectError {
         self.origin.error(self.offset(key), problem)
     }
 
@@ -98,7 +98,7 @@ impl<'a> Table<'a> {
             None => Ok(()),
             Some(key) => {
                 let hint = hint(key, known);
-                Err(self.error(key, Problem::UnknownKey { table: self.name.into(), key: key.into(), hint }))
+                Err(self.error(key, TableProblem::UnknownKey { table: self.name.into(), key: key.into(), hint }))
             }
         }
     }
@@ -114,12 +114,12 @@ impl<'a> Table<'a> {
 
     /// A value that must be there.
     pub(super) fn need<T>(&self, key: &'static str, example: &str, value: Option<T>) -> Result<T, ProjectError> {
-        let missing = || Problem::MissingKey { table: self.name.into(), key, example: example.into() };
+        let missing = || TableProblem::MissingKey { table: self.name.into(), key, example: example.into() };
         value.ok_or_else(|| self.origin.error(self.start, missing()))
     }
 
     fn wrong(&self, key: &str, value: &Value<'_>, expected: &'static str) -> ProjectError {
-        let problem = Problem::WrongType { key: key.into(), expected, found: kind(value.get_ref()) };
+        let problem = TableProblem::WrongType { key: key.into(), expected, found: kind(value.get_ref()) };
         self.origin.error(value.span().start, problem)
     }
 
@@ -134,7 +134,7 @@ impl<'a> Table<'a> {
             DeValue::Float(x) => (x.as_str().parse().ok(), x.as_str().to_owned()),
             _ => return Err(self.wrong(key, value, "a number")),
         };
-        let range = Problem::OutOfRange { key: key.into(), value: text, range: "finite, from -1e30 to 1e30" };
+        let range = TableProblem::OutOfRange { key: key.into(), value: text, range: "finite, from -1e30 to 1e30" };
         number.filter(|x: &f64| x.abs() <= GREATEST).ok_or_else(|| self.origin.error(value.span().start, range))
     }
 
@@ -143,7 +143,7 @@ impl<'a> Table<'a> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let DeValue::Integer(n) = value.get_ref() else { return Err(self.wrong(key, value, "a whole number")) };
         let number = integer(n.as_str(), n.radix()).and_then(|n| i64::try_from(n).ok());
-        let range = Problem::OutOfRange { key: key.into(), value: n.as_str().into(), range: "less than 2^63" };
+        let range = TableProblem::OutOfRange { key: key.into(), value: n.as_str().into(), range: "less than 2^63" };
         number.map(Some).ok_or_else(|| self.origin.error(value.span().start, range))
     }
 
@@ -158,7 +158,9 @@ impl<'a> Table<'a> {
         let Some(number) = self.whole(key)? else { return Ok(None) };
         match usize::try_from(number).ok().filter(|n| (least..=most).contains(n)) {
             Some(count) => Ok(Some(count)),
-            None => Err(self.error(key, Problem::OutOfRange { key: key.into(), value: number.to_string(), range })),
+            None => {
+                Err(self.error(key, TableProblem::OutOfRange { key: key.into(), value: number.to_string(), range }))
+            }
         }
     }
 
@@ -193,7 +195,7 @@ impl<'a> Table<'a> {
     ) -> Result<Option<T>, ProjectError> {
         let Some(value) = self.text(key)? else { return Ok(None) };
         let list = allowed.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
-        let problem = Problem::NotAllowed { key: key.into(), value: one_line(&value), allowed: list };
+        let problem = TableProblem::NotAllowed { key: key.into(), value: one_line(&value), allowed: list };
         read(&value).map(Some).ok_or_else(|| self.error(key, problem))
     }
 

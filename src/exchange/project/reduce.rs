@@ -4,7 +4,7 @@ use super::error::ProjectError;
 use super::keys::above_zero;
 use super::label::Label;
 use super::reader::Table;
-use crate::structure::reduction::Method;
+use crate::structure::reduction::ReductionMethod;
 use serde::{Deserialize, Serialize};
 
 /// Table `[structure.reduce]`.
@@ -26,8 +26,8 @@ pub struct ReduceTable {
 /// Table `[structure.reduce]`.
 pub(super) fn parse(table: &Table<'_>) -> Result<ReduceTable, ProjectError> {
     table.only_in::<ReduceTable>(&[])?;
-    let names = [Method::CraigBampton, Method::Guyan].map(Method::name);
-    let method = table.word("method", &names, Method::from_name)?.unwrap_or(Method::CraigBampton);
+    let names = [ReductionMethod::CraigBampton, ReductionMethod::Guyan].map(ReductionMethod::name);
+    let method = table.word("method", &names, ReductionMethod::from_name)?.unwrap_or(ReductionMethod::CraigBampton);
     let frequency = |key: &'static str| above_zero(table, key, "above 0 Hz");
     Ok(ReduceTable {
         method: method.name().to_owned(),

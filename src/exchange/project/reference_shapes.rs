@@ -1,6 +1,6 @@
 //! The modes and operating shapes of other programs that a project names, read from their files.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::ProjectFile;
 use super::lines::At;
 use crate::classical::reference_shapes::ReferenceShape;
@@ -21,7 +21,7 @@ pub(crate) fn reference_shapes(
 ) -> Result<Vec<ReferenceShape>, ProjectError> {
     let wrong = |k: usize, problem| at.error("[[modes]]", k, "", problem);
     if let Some(k) = file.modes.iter().position(|table| !folder.join(&table.file).is_file()) {
-        return Err(wrong(k, Problem::NoRecord { file: file.modes[k].file.clone() }));
+        return Err(wrong(k, TableProblem::NoRecord { file: file.modes[k].file.clone() }));
     }
     let responses = file.frf.iter().flat_map(|table| &table.dofs);
     let of_responses: BTreeMap<String, String> =
@@ -31,7 +31,7 @@ pub(crate) fn reference_shapes(
         let mut dofs = of_responses.clone();
         dofs.extend(table.dofs.iter().map(|(name, label)| (name.clone(), label.0.clone())));
         let read = read_shapes(&folder.join(&table.file), &table.file, &dofs, structure);
-        shapes.extend(read.map_err(|error| wrong(k, Problem::Frf(Box::new(error))))?);
+        shapes.extend(read.map_err(|error| wrong(k, TableProblem::Frf(Box::new(error))))?);
     }
     Ok(shapes)
 }

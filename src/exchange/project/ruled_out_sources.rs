@@ -1,6 +1,6 @@
 //! Effects that are ruled out, at their places on the structure.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::lines::At;
 use super::ruled_out::RuledOutTable;
 use super::sources::{at_place, channel, key_at_fault};
@@ -11,9 +11,9 @@ impl RuledOutTable {
     /// The effect at its place on a structure; its parameters are typical ones and mean nothing.
     ///
     /// # Errors
-    /// [`Problem`] where there is no such place, or the law cannot act there.
-    pub fn source(&self, structure: &Structure) -> Result<Source, Problem> {
-        let needs = |key, example: &str| Problem::MissingKey {
+    /// [`TableProblem`] where there is no such place, or the law cannot act there.
+    pub fn source(&self, structure: &Structure) -> Result<Source, TableProblem> {
+        let needs = |key, example: &str| TableProblem::MissingKey {
             table: format!("[[ruled_out]] of `{}`", self.law),
             key,
             example: example.to_owned(),
@@ -25,7 +25,7 @@ impl RuledOutTable {
             (_, None) => at_place(self.law, &self.dofs, self.elements, structure)?,
         };
         let source = Source::candidate(self.law, place);
-        source.check_on(structure).map_err(|error| Problem::Source(Box::new(error)))?;
+        source.check_on(structure).map_err(|error| TableProblem::Source(Box::new(error)))?;
         Ok(source)
     }
 }

@@ -1,6 +1,6 @@
 //! Tables `[[run]]` and `[[harmonics]]` of a project.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::{HarmonicsTable, Lines, RunTable};
 use super::frf::dofs;
 use super::keys::above_zero;
@@ -8,7 +8,7 @@ use super::label::Label;
 use super::reader::Table;
 use super::{base, excitation};
 use crate::measurement::base::AXES;
-use crate::measurement::{Part, Quantity};
+use crate::measurement::{Quantity, TimeSpan};
 use std::collections::BTreeMap;
 
 type Read<T> = Result<T, ProjectError>;
@@ -75,14 +75,14 @@ fn run(table: &Table<'_>) -> Read<RunTable> {
 fn sets(table: &Table<'_>) -> Read<Vec<String>> {
     let sets = table.texts("sets")?;
     if sets.is_some() && table.text("set")?.is_some() {
-        return Err(table.error("sets", Problem::SetAndSets));
+        return Err(table.error("sets", TableProblem::SetAndSets));
     }
     Ok(sets.unwrap_or_default())
 }
 
 /// The DOF and the size of a force, which belong together.
 fn force(table: &Table<'_>) -> Read<(Option<Label>, Option<f64>)> {
-    let half = |key: &'static str, other: &'static str| table.error(key, Problem::HalfAForce { key, other });
+    let half = |key: &'static str, other: &'static str| table.error(key, TableProblem::HalfAForce { key, other });
     match (table.label("force_dof")?.map(Label), table.number("force_n")?) {
         (Some(_), None) => Err(half("force_dof", "force_n")),
         (None, Some(_)) => Err(half("force_n", "force_dof")),
@@ -95,20 +95,20 @@ fn frequency_shift(table: &Table<'_>) -> Read<Option<f64>> {
     match shift.filter(|shift| shift.abs() >= 0.5) {
         Some(value) => {
             let (key, range) = ("frequency_shift".to_owned(), "between -0.5 and 0.5; 5e-4 is 0.05 %");
-            Err(table.error("frequency_shift", Problem::OutOfRange { key, value: value.to_string(), range }))
+            Err(table.error("frequency_shift", TableProblem::OutOfRange { key, value: value.to_string(), range }))
         }
         None => Ok(shift),
     }
 }
 
 /// `start_s` and `end_s`.
-fn part(table: &Table<'_>) -> Read<Part> {
-    let part = Part { start_s: table.number("start_s")?, end_s: table.number("end_s")? };
+fn part(table: &Table<'_>) -> Read<TimeSpan> {
+    let part = TimeSpan { start_s: table.number("start_s")?, end_s: table.number("end_s")? };
     if let (Some(start), Some(end)) = (part.start_s, part.end_s)
         && end <= start
     {
         let (key, range) = ("end_s".to_owned(), "later than start_s");
-        return Err(table.error("end_s", Problem::OutOfRange { key, value: end.to_string(), range }));
+        return Err(table.error("end_s", TableProblem::OutOfRange { key, value: end.to_string(), range }));
     }
     Ok(part)
 }

@@ -1,6 +1,6 @@
 //! Sources and sensors of a project on its structure: labels found, families expanded, repetitions refused.
 
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::{CandidatesTable, ProjectFile, SensorTable, SourceTable};
 use super::label::Label;
 use super::lines::At;
@@ -9,12 +9,12 @@ use crate::effects::{Effect, Kind, Place, Source, State};
 use crate::measurement::Quantity;
 use crate::structure::{Structure, StructureError};
 
-fn structure_problem(error: StructureError) -> Problem {
-    Problem::Structure(Box::new(error))
+fn structure_problem(error: StructureError) -> TableProblem {
+    TableProblem::Structure(Box::new(error))
 }
 
-fn source_problem(error: SourceError) -> Problem {
-    Problem::Source(Box::new(error))
+fn source_problem(error: SourceError) -> TableProblem {
+    TableProblem::Source(Box::new(error))
 }
 
 /// All sources: those written one by one, then the families where nothing is written already. A place that is a candidate
@@ -24,13 +24,13 @@ fn source_problem(error: SourceError) -> Problem {
 /// [`ProjectError`] for the first table that does not hold.
 pub(crate) fn sources(file: &ProjectFile, structure: &Structure, at: At<'_>) -> Result<Vec<Source>, ProjectError> {
     const SOURCE: &str = "[[source]]";
-    let wrong = |name, k, problem: Problem| at.error(name, k, key_at_fault(&problem), problem);
+    let wrong = |name, k, problem: TableProblem| at.error(name, k, key_at_fault(&problem), problem);
     let mut sources: Vec<Source> = Vec::new();
     for (k, table) in file.source.iter().enumerate() {
         let source = single(table, structure).map_err(|problem| wrong(SOURCE, k, problem))?;
         if let Some(first) = sources.iter().position(|other| clashes(other, &source)) {
             let (source_name, first) = (source.phrase(structure), at.lines.of(SOURCE, first, ""));
-            return Err(wrong(SOURCE, k, Problem::SourceTwice { law: table.law, source_name, first }));
+            return Err(wrong(SOURCE, k, TableProblem::SourceTwice { law: table.law, source_name, first }));
         }
         sources.push(source);
     }
@@ -52,12 +52,12 @@ fn clashes(a: &Source, b: &Source) -> bool {
 }
 
 /// The key that a problem of a source is about; empty where it is about the whole table.
-pub(super) fn key_at_fault(problem: &Problem) -> &'static str {
+pub(super) fn key_at_fault(problem: &TableProblem) -> &'static str {
     match problem {
-        Problem::Structure(_) => "dofs",
-        Problem::EmptyFamily { .. } => "where",
-        Problem::ChannelLaw { .. } => "law",
-        Problem::Source(error) => match &**error {
+        TableProblem::Structure(_) => "dofs",
+        TableProblem::EmptyFamily { .. } => "where",
+        TableProblem::ChannelLaw { .. } => "law",
+        TableProblem::Source(error) => match &**error {
             SourceError::OutOfRange { name, .. } => name,
             SourceError::NeedsWhole { .. } | SourceError::PairedWithItself { .. } => "dofs",
             SourceError::NoSuchElements { .. } => "elements",
@@ -70,18 +70,18 @@ pub(super) fn key_at_fault(problem: &Problem) -> &'static str {
 /// The place of a law on DOFs, or of one of the whole structure with its range of elements.
 ///
 /// # Errors
-/// [`Problem`] where there is no such place, or the law cannot act there.
+/// [`TableProblem`] where there is no such place, or the law cannot act there.
 pub(crate) fn at_place(
     effect: Effect,
     dofs: &[Label],
     range: Option<[i64; 2]>,
     structure: &Structure,
-) -> Result<Place, Problem> {
+) -> Result<Place, TableProblem> {
     Ok(match effect.kind() {
-        Kind::Channel(_) => return Err(Problem::ChannelLaw { law: effect.name() }),
+        Kind::Channel(_) => return Err(TableProblem::ChannelLaw { law: effect.name() }),
         Kind::Relative(_) if range.is_some() => {
             let hint = "`elements` restricts laws of the whole structure only, so leave it out".to_owned();
-            return Err(Problem::UnknownKey { table: format!("law `{effect}`"), key: "elements".into(), hint });
+            return Err(TableProblem::UnknownKey { table: format!("law `{effect}`"), key: "elements".into(), hint });
         }
         Kind::Relative(_) => {
             let rows = dofs.iter().map(|label| structure.require_dof(&label.0));
@@ -95,8 +95,8 @@ pub(crate) fn at_place(
 /// The source of one table, checked.
 ///
 /// # Errors
-/// [`Problem`] where the law cannot act there or not with these parameters.
-pub(crate) fn single(table: &SourceTable, structure: &Structure) -> Result<Source, Problem> {
+/// [`TableProblem`] where the law cannot act there or not with these parameters.
+pub(crate) fn single(table: &SourceTable, structure: &Structure) -> Result<Source, TableProblem> {
     let effect = table.law;
     let place = at_place(effect, &table.dofs, table.elements, structure)?;
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
@@ -106,7 +106,7 @@ pub(crate) fn single(table: &SourceTable, structure: &Structure) -> Result<Sourc
 }
 
 /// From elements counted from 1 to elements counted from 0.
-fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[usize; 2], Problem> {
+fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[usize; 2], TableProblem> {
     let count = structure.elements().len();
     let number = |n: i64| usize::try_from(n).unwrap_or(0);
     let (first, last) = (number(range[0]), number(range[1]));
@@ -119,10 +119,10 @@ fn elements(effect: Effect, range: [i64; 2], structure: &Structure) -> Result<[u
 /// The candidates of one family, checked.
 ///
 /// # Errors
-/// [`Problem`] where one cannot act, or there is no place for any.
-pub(crate) fn members(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, Problem> {
+/// [`TableProblem`] where one cannot act, or there is no place for any.
+pub(crate) fn members(table: &CandidatesTable, structure: &Structure) -> Result<Vec<Source>, TableProblem> {
     if matches!(table.law.kind(), Kind::Channel(_)) {
-        return Err(Problem::ChannelLaw { law: table.law.name() });
+        return Err(TableProblem::ChannelLaw { law: table.law.name() });
     }
     let values: Vec<(&str, f64)> = table.parameters.iter().map(|(name, &value)| (name.as_str(), value)).collect();
     let mut sources = Vec::new();
@@ -131,7 +131,7 @@ pub(crate) fn members(table: &CandidatesTable, structure: &Structure) -> Result<
         source.check_on(structure).map_err(source_problem)?;
         sources.push(source);
     }
-    if sources.is_empty() { Err(Problem::EmptyFamily { family: table.family.name() }) } else { Ok(sources) }
+    if sources.is_empty() { Err(TableProblem::EmptyFamily { family: table.family.name() }) } else { Ok(sources) }
 }
 
 /// Known errors of the measuring chain, one source a value.
@@ -150,7 +150,7 @@ pub(crate) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>)
             source.check().map_err(|error| wrong(source_problem(error)))?;
             if let Some(known) = sensors.iter().position(|other| other.is_same(&source)) {
                 let what = format!("the {effect} of \"{name}\"");
-                return Err(wrong(Problem::Twice { what, first: first[known] }));
+                return Err(wrong(TableProblem::Twice { what, first: first[known] }));
             }
             sensors.push(source);
             first.push(at.lines.of(SENSOR, k, ""));
@@ -160,8 +160,8 @@ pub(crate) fn sensors(tables: &[SensorTable], structure: &Structure, at: At<'_>)
 }
 
 /// The channel's name as all channels are named, with a label of the structure.
-pub(super) fn channel(name: &str, structure: &Structure) -> Result<String, Problem> {
-    let wrong = || Problem::NotAllowed {
+pub(super) fn channel(name: &str, structure: &Structure) -> Result<String, TableProblem> {
+    let wrong = || TableProblem::NotAllowed {
         key: "channel".into(),
         value: super::reader::one_line(name),
         allowed: "force@DOF, acc@DOF, vel@DOF, disp@DOF, without a unit".into(),

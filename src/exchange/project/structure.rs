@@ -1,7 +1,7 @@
 //! Builds the structure of a project, its matrices read from their files.
 
 use super::correction::corrected;
-use super::error::{Problem, ProjectError};
+use super::error::{ProjectError, TableProblem};
 use super::file::{MatricesTable, Shape, StructureTable};
 use super::lines::At;
 use super::model;
@@ -27,7 +27,7 @@ pub(crate) fn structure(
     at: At<'_>,
 ) -> Result<Structure, ProjectError> {
     let lumped = &table.lumped_mass;
-    let of_structure = |error: StructureError| Problem::Structure(Box::new(error));
+    let of_structure = |error: StructureError| TableProblem::Structure(Box::new(error));
     let built = match &table.shape {
         Shape::Beam(parameters) => parameters.build(lumped).map_err(of_structure),
         Shape::Chain(parameters) => parameters.build(lumped).map_err(of_structure),
@@ -36,7 +36,7 @@ pub(crate) fn structure(
             imported(files, folder).and_then(|parameters| parameters.build(lumped).map_err(of_structure))
         }
         Shape::Points(_) | Shape::Component(_) if !lumped.is_empty() => {
-            return Err(at.error(LUMPED_MASS, 0, "", Problem::MassOnPoints));
+            return Err(at.error(LUMPED_MASS, 0, "", TableProblem::MassOnPoints));
         }
         Shape::Points(points) => {
             let dofs = points.dofs.iter().map(|label| label.0.clone()).collect();
@@ -48,25 +48,25 @@ pub(crate) fn structure(
     corrected(built, &table.correction).map_err(|(k, problem)| at.error("[[structure.correction]]", k, "", problem))
 }
 
-fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, Problem> {
+fn imported(files: &MatricesTable, folder: &Path) -> Result<ImportedParameters, TableProblem> {
     let beside = |name: &String| folder.join(name);
     let optional = |name: &Option<String>| name.as_ref().map(beside);
     Ok(ImportedParameters {
-        mass: read_matrix(&beside(&files.mass)).map_err(Problem::Table)?,
-        stiffness: read_matrix(&beside(&files.stiffness)).map_err(Problem::Table)?,
-        nodes: optional(&files.nodes).map(|path| read_nodes(&path)).transpose().map_err(Problem::Table)?,
-        dofs: optional(&files.dofs).map(|path| read_dofs(&path)).transpose().map_err(Problem::Table)?,
+        mass: read_matrix(&beside(&files.mass)).map_err(TableProblem::Table)?,
+        stiffness: read_matrix(&beside(&files.stiffness)).map_err(TableProblem::Table)?,
+        nodes: optional(&files.nodes).map(|path| read_nodes(&path)).transpose().map_err(TableProblem::Table)?,
+        dofs: optional(&files.dofs).map(|path| read_dofs(&path)).transpose().map_err(TableProblem::Table)?,
         lines: optional(&files.lines)
             .map(|path| read_lines(&path))
             .transpose()
-            .map_err(Problem::Table)?
+            .map_err(TableProblem::Table)?
             .unwrap_or_default(),
     })
 }
 
 /// The problem at the key that it is about, as far as it says so.
-fn located(problem: Problem, table: &StructureTable, at: At<'_>) -> ProjectError {
-    let Problem::Structure(error) = &problem else { return at.error(STRUCTURE, 0, "", problem) };
+fn located(problem: TableProblem, table: &StructureTable, at: At<'_>) -> ProjectError {
+    let TableProblem::Structure(error) = &problem else { return at.error(STRUCTURE, 0, "", problem) };
     if let StructureError::UnknownDof { label, .. } = &**error
         && let Some(k) = table.lumped_mass.iter().position(|mass| mass.dof == *label)
     {

@@ -21,7 +21,7 @@ mod request;
 pub(crate) use mode_check::ModeCheck;
 pub(crate) use outcome::Reduction;
 pub(crate) use reduce::reduce;
-pub(crate) use request::{Method, SparseSystem, Wanted};
+pub(crate) use request::{ReductionMethod, SparseSystem, Wanted};
 
 #[cfg(test)]
 mod tests;

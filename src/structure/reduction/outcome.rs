@@ -1,7 +1,7 @@
 //! How a structure was reduced, and how well.
 
 use super::mode_check::ModeCheck;
-use super::request::{Method, Wanted};
+use super::request::{ReductionMethod, Wanted};
 use crate::structure::error::six_digits;
 
 /// How a structure was reduced, and how well.
@@ -32,8 +32,8 @@ impl Reduction {
         let Wanted { method, up_to_hz, band_hz, .. } = self.wanted;
         let [up_to_hz, band_hz] = [up_to_hz, band_hz].map(six_digits);
         let modes = match method {
-            Method::Guyan => String::new(),
-            Method::CraigBampton => {
+            ReductionMethod::Guyan => String::new(),
+            ReductionMethod::CraigBampton => {
                 format!(" and {} fixed-interface modes up to {up_to_hz} Hz", self.fixed_interface_modes)
             }
         };

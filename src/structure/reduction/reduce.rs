@@ -4,7 +4,7 @@ use super::check::check;
 use super::mode_check::ModeCheck;
 use super::outcome::Reduction;
 use super::pencil::Shifted;
-use super::request::{Method, SparseSystem, Wanted};
+use super::request::{ReductionMethod, SparseSystem, Wanted};
 use crate::math::eigen::symmetrised;
 use crate::math::fill::filled;
 use crate::structure::error::StructureError;
@@ -52,7 +52,8 @@ pub(crate) fn reduce(
     let (modes, mut checks) = whole(&best)?;
     let mut next = wanted;
     for _ in 0..MOST_TIMES {
-        if wanted.method == Method::Guyan || worst(&checks) <= wanted.error || best.matrices.mass.nrows() >= n {
+        if wanted.method == ReductionMethod::Guyan || worst(&checks) <= wanted.error || best.matrices.mass.nrows() >= n
+        {
             break;
         }
         next.up_to_hz *= FURTHER;
@@ -108,11 +109,11 @@ fn basis(system: &SparseSystem, kept: &[usize], wanted: Wanted) -> Result<(Mat<f
     let (_, _, m_ii) = system.mass.partition(kept);
     let inner = SparseSystem { mass: m_ii, stiffness: k_ii };
     let (static_modes, shapes) = match wanted.method {
-        Method::Guyan => {
+        ReductionMethod::Guyan => {
             let factor = SparseCholesky::new(&inner.stiffness).ok_or(StructureError::NotRestrained)?;
             (factor.solve(coupling(&inner.stiffness, kept.len(), &k_ib).as_ref()), Mat::zeros(0, 0))
         }
-        Method::CraigBampton => {
+        ReductionMethod::CraigBampton => {
             let shifted = Shifted::new(&inner, wanted.up_to_hz).ok_or(StructureError::NotStable)?;
             let shapes = shifted.modes(wanted.up_to_hz)?.shapes;
             let load = coupling(&inner.stiffness, kept.len(), &k_ib);

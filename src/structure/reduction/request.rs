@@ -13,14 +13,14 @@ pub(crate) struct SparseSystem {
 
 /// Ways to reduce a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
+pub enum ReductionMethod {
     /// Static condensation.
     Guyan,
     /// Static condensation and fixed-interface modes.
     CraigBampton,
 }
 
-impl Method {
+impl ReductionMethod {
     /// Name in project files.
     pub fn name(self) -> &'static str {
         match self {
@@ -38,8 +38,8 @@ impl Method {
 /// What is asked of a reduction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
-    /// Method.
-    pub method: Method,
+    /// ReductionMethod.
+    pub method: ReductionMethod,
     /// Fixed-interface modes are kept up to this frequency, Hz.
     pub up_to_hz: f64,
     /// The error is told on the modes up to this frequency, Hz.

@@ -34,7 +34,7 @@ fn system(structure: &Structure) -> (SparseSystem, Vec<Direction>) {
 fn craig_bampton_reaches_the_closed_form_of_a_cantilever() {
     let (p, structure) = beam(60, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
+    let wanted = Wanted { method: ReductionMethod::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
     let (_, reduction) = reduce(&system, &directions, &[30, 60, 118], wanted).unwrap();
     let stiffness = p.youngs_modulus * p.breadth * p.depth.powi(3) / 12.0;
     let speed = (stiffness / (p.density * p.breadth * p.depth)).sqrt();
@@ -55,7 +55,7 @@ fn frequencies_are_those_of_the_whole_model() {
     let (_, structure) = beam(60, Supports::ClampedFree);
     let (system, directions) = system(&structure);
     let own = structure.modes().unwrap();
-    for (method, tolerance) in [(Method::CraigBampton, 2e-3), (Method::Guyan, 0.02)] {
+    for (method, tolerance) in [(ReductionMethod::CraigBampton, 2e-3), (ReductionMethod::Guyan, 0.02)] {
         let wanted = Wanted { method, up_to_hz: 2000.0, band_hz: 300.0, error: 1.0 };
         let (_, reduction) = reduce(&system, &directions, &[20, 40, 60, 80, 100, 118], wanted).unwrap();
         assert_eq!(reduction.modes.len(), own.omega.iter().filter(|w| **w < 300.0 * std::f64::consts::TAU).count());
@@ -71,7 +71,7 @@ fn frequencies_are_those_of_the_whole_model() {
 fn modes_are_kept_until_the_error_that_is_told_is_what_was_asked() {
     let (_, structure) = beam(60, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let loose = Wanted { method: Method::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
+    let loose = Wanted { method: ReductionMethod::CraigBampton, up_to_hz: 1500.0, band_hz: 700.0, error: 1.0 };
     let worst = |wanted: Wanted| {
         let (matrices, reduction) = reduce(&system, &directions, &[30, 60, 118], wanted).unwrap();
         assert_eq!(matrices.mass.nrows(), reduction.kept + reduction.fixed_interface_modes);
@@ -93,7 +93,7 @@ fn modes_are_kept_until_the_error_that_is_told_is_what_was_asked() {
 fn guyan_is_exact_at_rest() {
     let (_, structure) = beam(20, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::Guyan, up_to_hz: 100.0, band_hz: 100.0, error: 1.0 };
+    let wanted = Wanted { method: ReductionMethod::Guyan, up_to_hz: 100.0, band_hz: 100.0, error: 1.0 };
     let kept = [10, 38];
     let (matrices, _) = reduce(&system, &directions, &kept, wanted).unwrap();
     let whole = dashpot_numerics::Cholesky::new(structure.matrices().unwrap().stiffness.as_ref()).unwrap();
@@ -108,7 +108,7 @@ fn guyan_is_exact_at_rest() {
 fn a_free_beam_keeps_its_rigid_motions_and_its_mass() {
     let (p, structure) = beam(40, Supports::FreeFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
+    let wanted = Wanted { method: ReductionMethod::CraigBampton, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
     let (matrices, reduction) = reduce(&system, &directions, &[0], wanted).unwrap();
     assert!(reduction.modes[1].full_hz == 0.0 && reduction.modes[1].reduced_hz < 1e-2, "{:?}", reduction.modes);
     assert!(reduction.modes[2].frequency_error().abs() < 1e-4);
@@ -126,7 +126,7 @@ fn a_free_beam_keeps_its_rigid_motions_and_its_mass() {
 fn what_cannot_be_done_is_said() {
     let (_, structure) = beam(10, Supports::FreeFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::Guyan, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
+    let wanted = Wanted { method: ReductionMethod::Guyan, up_to_hz: 1000.0, band_hz: 400.0, error: 1.0 };
     assert_eq!(reduce(&system, &directions, &[], wanted).unwrap_err(), StructureError::NothingKept);
     let all: Vec<usize> = (0..22).collect();
     let error = reduce(&system, &directions, &all, wanted).unwrap_err();
@@ -137,7 +137,8 @@ fn what_cannot_be_done_is_said() {
 fn limits_that_were_computed_are_said_to_six_digits() {
     let (_, structure) = beam(12, Supports::ClampedFree);
     let (system, directions) = system(&structure);
-    let wanted = Wanted { method: Method::CraigBampton, up_to_hz: 6.0 * 308.1, band_hz: 3.0 * 308.1, error: 0.5 };
+    let wanted =
+        Wanted { method: ReductionMethod::CraigBampton, up_to_hz: 6.0 * 308.1, band_hz: 3.0 * 308.1, error: 0.5 };
     assert_eq!(wanted.up_to_hz.to_string(), "1848.6000000000001");
     let sentence = reduce(&system, &directions, &[10, 22], wanted).unwrap().1.sentence();
     assert!(sentence.contains("up to 1848.6 Hz") && sentence.contains("up to 924.3 Hz"), "{sentence}");

@@ -2,7 +2,7 @@
 
 use crate::classical::method::Method;
 use crate::effects::Effect;
-use crate::response::frequency_response::Quantity;
+use crate::response::frequency_response::ResponseForm;
 use crate::session::states::Against;
 use crate::window::schematic::view::ViewState;
 use crate::window::stages::explain::look::Look;
@@ -69,7 +69,7 @@ pub struct View {
     /// Whether the matrix is shown as bars in space.
     pub matrix_in_space: bool,
     /// What is divided by the force in frequency responses.
-    pub quantity: Quantity,
+    pub quantity: ResponseForm,
     /// Classical method whose matrix is shown; `None` is the first that gives one.
     pub method: Option<Method>,
     /// Of the study of incompleteness.
@@ -122,7 +122,7 @@ impl Default for View {
             step: None,
             whole_matrix: false,
             matrix_in_space: false,
-            quantity: Quantity::Receptance,
+            quantity: ResponseForm::Receptance,
             method: None,
             incompleteness: Choice::default(),
             against: None,

@@ -7,9 +7,9 @@ use crate::classical::side_by_side::{SideBySide, side_by_side};
 use crate::control::Control;
 use crate::identify::{self, Measurements, Outcome};
 use crate::measurement::Quantity;
-use crate::plots::bode::Response;
+use crate::plots::bode::ReceptanceCurve;
 use crate::plots::forward;
-use crate::plots::hysteresis::Loop;
+use crate::plots::hysteresis::HysteresisPlot;
 use crate::plots::unsteady_record::UnsteadyRecord;
 use crate::session::Revisions;
 use crate::session::states::{self, Against, Compared};
@@ -35,9 +35,9 @@ pub struct Derived {
     scene: Option<(u64, Arc<Scene>)>,
     modes: Cache<u64, Modes>,
     outcome: Cache<u64, Outcome>,
-    response: Cache<Asked, Response>,
+    response: Cache<Asked, ReceptanceCurve>,
     motions: Cache<u64, Vec<Motion>>,
-    loops: Cache<(u64, usize), Vec<Loop>>,
+    loops: Cache<(u64, usize), Vec<HysteresisPlot>>,
     methods: Cache<u64, SideBySide>,
     incompleteness: Cache<u64, Incompleteness>,
     change: Cache<(u64, Against), Compared>,
@@ -226,7 +226,7 @@ impl Derived {
     }
 
     /// Receptance of the identified model between the selected DOF (else the last sensor) and the exciter.
-    pub fn response(&mut self, ctx: &Context, document: &Document, view: &View) -> Option<Cached<Response>> {
+    pub fn response(&mut self, ctx: &Context, document: &Document, view: &View) -> Option<Cached<ReceptanceCurve>> {
         let outcome = match self.known_outcome(document)? {
             Ok(outcome) => outcome,
             Err(error) => return Some(Err(error)),
@@ -247,7 +247,7 @@ impl Derived {
     }
 
     /// Hysteresis loops of a run from the identified model's steady state; `None` while they are computed.
-    pub fn loops(&mut self, ctx: &Context, document: &Document, run: usize) -> Option<Cached<Vec<Loop>>> {
+    pub fn loops(&mut self, ctx: &Context, document: &Document, run: usize) -> Option<Cached<Vec<HysteresisPlot>>> {
         let outcome = match self.known_outcome(document)? {
             Ok(outcome) => outcome,
             Err(error) => return Some(Err(error)),

@@ -4,7 +4,7 @@ use super::export;
 use super::show::{Place, RULER, key_row};
 use crate::display::words;
 use crate::plots::figure::Figure;
-use crate::plots::hysteresis::Loop;
+use crate::plots::hysteresis::HysteresisPlot;
 use crate::plots::sheet::{Panel, Sheet};
 use crate::window::appearance::widgets::UiExt;
 use crate::window::language::tr;
@@ -14,7 +14,7 @@ use egui::{Ui, vec2};
 const LEAST: f32 = 200.0;
 
 /// Shows loops side by side, as many as there is room for.
-pub(crate) fn show(ui: &mut Ui, title: &str, loops: &[Loop]) {
+pub(crate) fn show(ui: &mut Ui, title: &str, loops: &[HysteresisPlot]) {
     let palette = ui.palette();
     let figures: Vec<Figure> = loops.iter().map(|l| l.figure(palette)).collect();
     key_row(ui, figures.iter());

@@ -7,7 +7,7 @@ use crate::identify::Outcome;
 use crate::plots::bars::Bar;
 use crate::plots::bode::Diagram;
 use crate::plots::{heatmap, tables};
-use crate::response::frequency_response::Quantity;
+use crate::response::frequency_response::ResponseForm;
 use crate::window::app::opened::Opened;
 use crate::window::appearance::theme::{self, size, space};
 use crate::window::appearance::widgets::{UiExt, width};
@@ -108,10 +108,12 @@ fn heat(ui: &mut Ui, p: &Project, outcome: &Outcome, whole: &mut bool, in_space:
     }
 }
 
-fn quantities(ui: &mut Ui, chosen: &mut Quantity) {
-    for (quantity, name) in
-        [(Quantity::Receptance, "Receptance"), (Quantity::Mobility, "Mobility"), (Quantity::Accelerance, "Accelerance")]
-    {
+fn quantities(ui: &mut Ui, chosen: &mut ResponseForm) {
+    for (quantity, name) in [
+        (ResponseForm::Receptance, "Receptance"),
+        (ResponseForm::Mobility, "Mobility"),
+        (ResponseForm::Accelerance, "Accelerance"),
+    ] {
         if ui.selectable_label(*chosen == quantity, tr(name)).clicked() {
             *chosen = quantity;
         }

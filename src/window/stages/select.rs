@@ -4,7 +4,7 @@ use super::identified;
 use crate::display::{format, words};
 use crate::effects::State;
 use crate::exchange::Project;
-use crate::identify::{Outcome, SelectionStep, Status};
+use crate::identify::{Outcome, SelectionStatus, SelectionStep};
 use crate::window::app::ask::Ask;
 use crate::window::app::commands::Command;
 use crate::window::app::opened::Opened;
@@ -96,26 +96,28 @@ fn header(ui: &mut Ui, outcome: &Outcome, current: usize, asks: &mut Vec<Ask>) {
 
 /// How the search ended and why; where something is left, the way on.
 fn ending(ui: &mut Ui, outcome: &Outcome, asks: &mut Vec<Ask>) {
-    let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
+    let good = matches!(outcome.status, SelectionStatus::WithinNoise | SelectionStatus::BelowAngle);
     let colour = if good { ui.palette().good } else { ui.palette().warning };
     ui.horizontal_wrapped(|ui| {
         ui.pill(status(outcome.status), colour);
         ui.hint(&outcome.reason);
         let tip = "Takes what was identified as known and searches for what it does not explain.";
-        if outcome.status == Status::AboveNoise && ui.link(t!("What is missing?")).on_hover_text(tr(tip)).clicked() {
+        if outcome.status == SelectionStatus::AboveNoise
+            && ui.link(t!("What is missing?")).on_hover_text(tr(tip)).clicked()
+        {
             asks.push(Ask::Command(Command::Explain));
         }
     });
 }
 
 /// How the search ended, in words.
-pub(crate) fn status(status: Status) -> &'static str {
+pub(crate) fn status(status: SelectionStatus) -> &'static str {
     match status {
-        Status::WithinNoise => "data explained within the noise",
-        Status::AboveNoise => "does not reach the noise",
-        Status::BelowAngle => "below the angle limit",
-        Status::AboveAngle => "above the angle limit",
-        Status::NothingLeft => "nothing is left to judge by",
+        SelectionStatus::WithinNoise => "data explained within the noise",
+        SelectionStatus::AboveNoise => "does not reach the noise",
+        SelectionStatus::BelowAngle => "below the angle limit",
+        SelectionStatus::AboveAngle => "above the angle limit",
+        SelectionStatus::NothingLeft => "nothing is left to judge by",
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where each stage stands, and why in one line.
 
 use crate::display::words;
-use crate::identify::Status;
+use crate::identify::SelectionStatus;
 use crate::session::validation::has_records;
 use crate::window::app::App;
 use crate::window::app::view::Stage;
@@ -57,7 +57,7 @@ impl App {
                         words::counted(outcome.accepted_step().count, "source"),
                         stages::select::status(outcome.status)
                     );
-                    let good = matches!(outcome.status, Status::WithinNoise | Status::BelowAngle);
+                    let good = matches!(outcome.status, SelectionStatus::WithinNoise | SelectionStatus::BelowAngle);
                     if good { StageStatus::done(&text) } else { StageStatus::attention(&text) }
                 }
             },
