@@ -134,14 +134,14 @@ mod tests {
     /// Nothing is made of matrices that are indefinite or no numbers; a variable that the matrix does not know has the ridge alone.
     #[test]
     fn indefinite_matrices_have_no_factors() {
-        let of = |a: [f64; 3]| Mat::from_fn(2, 2, |i, j| a[i + j]);
+        let symmetric = |a: [f64; 3]| Mat::from_fn(2, 2, |i, j| a[i + j]);
         for bad in [[1.0, 2.0, 1.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 1.0]]
         {
-            assert!(EquilibratedCholesky::new(of(bad).as_ref(), 0.0).is_none(), "{bad:?}");
+            assert!(EquilibratedCholesky::new(symmetric(bad).as_ref(), 0.0).is_none(), "{bad:?}");
         }
-        let unknown = EquilibratedCholesky::new(of([0.0, 0.0, 4.0]).as_ref(), 1e-10).unwrap();
+        let unknown = EquilibratedCholesky::new(symmetric([0.0, 0.0, 4.0]).as_ref(), 1e-10).unwrap();
         assert!((unknown.solve(&[0.0, 4.0])[1] - 1.0).abs() < 1e-9 && unknown.deviations()[0] > 1e150);
-        let bounded = EquilibratedCholesky::bounded(of([0.0, 0.0, 4.0]).as_ref(), 1.0, 0.25).unwrap();
+        let bounded = EquilibratedCholesky::bounded(symmetric([0.0, 0.0, 4.0]).as_ref(), 1.0, 0.25).unwrap();
         assert!((bounded.deviations()[0] - 1.0).abs() < 1e-12);
     }
 }
