@@ -38,7 +38,7 @@ fn refusals_name_what_would_do() {
     for (script, word) in [
         (r#"[{"add_source": {"law": "viscous", "dofs": ["99"]}}]"#, "99"),
         (r#"[{"add_source": {"law": "delay"}}]"#, "channel"),
-        (r#"[{"remove_source": {"law": "iwan", "dofs": ["3"]}}]"#, "no `iwan`"),
+        (r#"[{"remove_source": {"law": "iwan", "dofs": ["3"]}}]"#, "not drawn: Iwan joint at DOF 3"),
         (r#"[{"set_structure_parameter": {"name": "colour", "value": 1}}]"#, "youngs_modulus"),
         (r#"[{"set_structure_parameter": {"name": "length", "value": -1}}]"#, "length"),
         (r#"[{"set_run_use": {"file": "x.csv", "use": false}}]"#, "x.csv"),

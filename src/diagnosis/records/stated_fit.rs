@@ -24,8 +24,7 @@ const LEAST: [f64; 2] = [0.01, 1e-4];
 /// Rounds and steps of the fits.
 const ROUNDS: [usize; 2] = [2, 4];
 
-/// Choices that are fitted, those first that cost least to first order: the nearest two rivals of the first, whose order an error of the
-/// second order may turn. Fitting all of them gave the same verdicts on the records of seeds 3400 to 3405.
+/// Choices that are fitted, those first that cost least to first order. All gave the same verdicts on records of seeds 3400 to 3405.
 const FITTED: usize = 3;
 
 /// A choice of corrections that may stand for all of those of a fit.
