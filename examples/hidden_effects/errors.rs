@@ -155,10 +155,10 @@ fn held(beam: &BeamParameters, ei: &[f64], mass: &[f64], support: Option<f64>, l
     let free = BeamParameters { supports: Supports::FreeFree, ..beam.clone() }.build(&[]).unwrap();
     let model = beam.build(&[]).unwrap();
     let n = free.len();
-    let (mut m, mut k) = (Mat::zeros(n, n), Mat::zeros(n, n));
+    let (mut m, mut k) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
     for (e, element) in free.elements().iter().enumerate() {
-        element.add_to(&(element.mass.clone() * faer::Scale(mass[e])), &mut m);
-        element.add_to(&(element.stiffness.clone() * faer::Scale(ei[e])), &mut k);
+        element.entries(&element.mass).for_each(|(i, j, value)| m[(i, j)] += mass[e] * value);
+        element.entries(&element.stiffness).for_each(|(i, j, value)| k[(i, j)] += ei[e] * value);
     }
     let in_model = |i: usize| {
         model.dofs().iter().position(|d| (d.node, d.direction) == (free.dofs()[i].node, free.dofs()[i].direction))
