@@ -32,7 +32,7 @@ fn what_is_left_is_that_of_one_least_squares_problem() {
             lines[k].ends[column][c]
         } else if (column - UNKNOWNS) / 2 == k {
             let force = (0..MODES).map(|r| lines[k].responses[(c, r)] * pattern[r]).sum::<c64>();
-            force * if (column - UNKNOWNS) % 2 == 0 { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) }
+            force * if (column - UNKNOWNS).is_multiple_of(2) { c64::new(1.0, 0.0) } else { c64::new(0.0, 1.0) }
         } else {
             c64::new(0.0, 0.0)
         };
