@@ -161,11 +161,14 @@ impl NoiseModel {
     /// The same noise with the parameters eliminated as far as the scales of `linearisation` let them move, which has the same derivatives.
     #[must_use]
     pub(crate) fn rescaled(&self, linearisation: &Linearisation) -> Self {
+        if linearisation.is_empty() {
+            return self.clone();
+        }
         let nuisance = |r: usize, own: &WhitenedDerivatives| {
             RunNuisance::new(own.scaled(0, &linearisation.own_scales(r))).at(linearisation.own_reference(r))
         };
         let updating = &linearisation.updating;
-        let all: Vec<usize> = (0..updating.len()).filter(|_| !linearisation.is_empty()).collect();
+        let all: Vec<usize> = (0..updating.len()).collect();
         self.eliminated(nuisance, updating, &all, updating.clone())
     }
 

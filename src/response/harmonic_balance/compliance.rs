@@ -354,13 +354,13 @@ impl Inverse {
     }
 }
 
-/// `factor B x`.
 /// Adds `factor v v^T x` to `result`.
 fn add_along(v: &[f64], factor: c64, x: &[c64], result: &mut [c64]) {
     let along = v.iter().zip(x).fold(c64::new(0.0, 0.0), |sum, (v, x)| sum + *x * *v);
     result.iter_mut().zip(v).for_each(|(r, v)| *r += factor * along * *v);
 }
 
+/// `factor B x`.
 fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
     let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
     for (j, &value) in x.iter().enumerate() {

@@ -7,7 +7,8 @@
 //! The linear rest is condensed exactly to the relative motions of the nonlinear sources (`condense`), whose forces are
 //! found by a damped Newton method with analytic Jacobian (`iterate`, `newton`, `legs`). Friction is set-valued, not regularised.
 //! Harmonics are added until the response no longer changes (`solve`); turning points are passed by arc length
-//! (`continuation`: `sweep` over frequency, `arc` over the level of the force; `branches` at one force); stability is that of Floquet's multipliers (`stability`).
+//! (`continuation`: `sweep` over frequency, `arc` over the level of the force; `branches` at one force); stability is that of Floquet's
+//! multipliers (`stability`).
 
 mod arc;
 mod branches;

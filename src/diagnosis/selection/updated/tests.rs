@@ -42,6 +42,8 @@ fn corrections_find_a_clamp_that_gives_way() {
     let predictor = Arc::new(Predictor::new(&stated, known.to_vec(), &data).unwrap());
     let (control, early) = (Control::unattended(), |_: &[Suggestion]| {});
     let model = ReferenceModel::new(predictor, &data, &control, &early).unwrap();
+    // Nothing is free yet: there is nothing to scale, and no run is lost.
+    assert!(model.count() > 0 && model.with_scales(Scales::SEARCH).count() == model.count());
     let bare = model.bare().unwrap();
     let updating = &bare.linearisation.updating;
     let k = updating.parameters.iter().position(|p| *p == UpdatingParameter::Structure(held)).unwrap();
