@@ -31,7 +31,7 @@ pub enum ForcePart {
 /// Powers with which the equivalent coefficient of a law goes: `c_eq` or `k_eq` as `|D|^amplitude omega^frequency`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponents {
-    /// ForcePart of the force that has them.
+    /// Part of the force that has them.
     pub part: ForcePart,
     /// Power of the amplitude of the relative displacement.
     pub amplitude: f64,

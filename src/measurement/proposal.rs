@@ -39,7 +39,7 @@ const ENOUGH: usize = 8192;
 pub(crate) struct Proposal {
     /// Kind.
     pub kind: Kind,
-    /// TimeSpan to be used.
+    /// Part to be used.
     pub part: TimeSpan,
     /// Why, in one sentence with numbers and units.
     pub reason: String,

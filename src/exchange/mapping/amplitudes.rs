@@ -5,7 +5,7 @@
 //! Freq (Hz);Force 8 (N);Acc 1 (m/s2);Phase 1 (deg);Acc 3 (m/s2);Phase 3 (deg)
 //! ```
 //!
-//! AmplitudeColumns are channels of the mapping (`[[channel]]`: quantity, DOF, unit, sign, factor); `[harmonics.phases]` says which column
+//! Amplitudes are channels of the mapping (`[[channel]]`: quantity, DOF, unit, sign, factor); `[harmonics.phases]` says which column
 //! holds the phase of which: `Y = A exp(i phi)`, where `phi` is the phase by which the channel leads the force.
 
 use super::guess::place_of;

@@ -59,7 +59,7 @@ pub struct PlannedRun {
     pub frequency_hz: Option<f64>,
     /// Kind of the run.
     pub kind: Kind,
-    /// TimeSpan of the record that is used.
+    /// Part of the record that is used.
     pub part: TimeSpan,
     /// Time constant of an exponential window over the motion, s.
     pub exponential_window_s: Option<f64>,

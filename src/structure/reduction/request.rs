@@ -38,7 +38,7 @@ impl ReductionMethod {
 /// What is asked of a reduction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
-    /// ReductionMethod.
+    /// Method.
     pub method: ReductionMethod,
     /// Fixed-interface modes are kept up to this frequency, Hz.
     pub up_to_hz: f64,
