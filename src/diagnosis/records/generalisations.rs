@@ -21,6 +21,27 @@ const ELSEWHERE: usize = 2;
 const NEAR: f64 = 4.0;
 
 impl Search<'_> {
+    /// Special cases of the laws that were found, and generalisations of the best where it is not yet among those `generalised`.
+    pub(super) fn neighbour_starts(
+        &self,
+        level: usize,
+        found: &[FittedRecords],
+        generalised: &mut Vec<Source>,
+    ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
+        let mut starts = self.special_case_starts(level, found);
+        if !is_generalised(found, generalised)
+            && let Some(best) = found.first().and_then(|f| f.effects.last())
+        {
+            let mut general = self.generalised_starts(level, found)?;
+            let here = generalised.iter().any(|law| law.place.is_same(&best.place));
+            general.retain(|s| !here || !found.iter().any(|f| is_same_set(&f.effects, &s.effects)));
+            generalised.push(best.clone());
+            starts.splice(0..0, general);
+        }
+        starts.retain(|s| found.first().is_none_or(|best| !self.pruned.holds(&s.effects, best)));
+        Ok(starts)
+    }
+
     /// The best of `found` with its last law replaced by generalisations, at the shapes that leave least; on segments of records none
     /// where the best leaves no more than noise.
     pub(super) fn generalised_starts(
@@ -136,6 +157,12 @@ impl Search<'_> {
     }
 }
 
+/// Whether the last law of the best is among those `generalised`, at the same place.
+pub(super) fn is_generalised(found: &[FittedRecords], generalised: &[Source]) -> bool {
+    let best = found.first().and_then(|f| f.effects.last());
+    best.is_none_or(|best| generalised.iter().any(|law| law.is_same(best)))
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
@@ -218,5 +245,26 @@ mod tests {
         let far = (at(Effect::Coulomb, 0, &[5e-3]), 90_000.0);
         let [_, elsewhere] = starts(&[best, (at(Effect::Coulomb, 1, &[5e-3]), 14_000.0), tried, far]);
         assert!(elsewhere.is_empty(), "{elsewhere:?}");
+    }
+
+    /// A law that was generalised at one place is so at the next that it comes to, and there once.
+    #[test]
+    fn a_law_is_generalised_at_every_place_where_it_is_the_best() {
+        let structure = chain();
+        let run = decay(&structure);
+        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
+        let control = Control::unattended();
+        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let whole = search.levels.len() - 1;
+        let mut best = FittedRecords::start(&search.levels[whole], &[]);
+        best.initial[0][0] = 2e-2;
+        (best.chi_square, best.count) = (1e6, 7200);
+        best.effects = vec![at(Effect::Quadratic, 2, &[0.9])];
+        let mut generalised = vec![at(Effect::Quadratic, 1, &[0.9])];
+        let mut starts = || search.neighbour_starts(whole, std::slice::from_ref(&best), &mut generalised).unwrap();
+        let has_power = |starts: &[FittedRecords]| starts.iter().any(|s| s.effects[0].effect == Effect::Power);
+        let first = starts();
+        assert!(has_power(&first) && first.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])));
+        assert!(!has_power(&starts()));
     }
 }

@@ -4,6 +4,7 @@ use super::compare::first_states;
 use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
+use super::generalisations::is_generalised;
 use super::laws::laws_seen_in;
 use super::problem::{FitProblem, Free};
 use super::pruning::{PrunedSets, is_same_set};
@@ -287,18 +288,10 @@ impl Search<'_> {
         level: usize,
         mut found: Vec<FittedRecords>,
     ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
-        let law_of_best = |found: &[FittedRecords]| found.first().and_then(|f| f.effects.last()).map(|e| e.effect);
-        let mut generalised = None;
+        let mut generalised = Vec::new();
         // A generalisation may have come further than the special case to which it has converged, and that special case have others.
         for _ in 0..3 {
-            let mut starts = self.special_case_starts(level, &found);
-            if law_of_best(&found) != generalised {
-                let mut general = self.generalised_starts(level, &found)?;
-                general.retain(|s| generalised.is_none() || !found.iter().any(|f| is_same_set(&f.effects, &s.effects)));
-                generalised = law_of_best(&found);
-                starts.splice(0..0, general);
-            }
-            starts.retain(|s| found.first().is_none_or(|best| !self.pruned.holds(&s.effects, best)));
+            let starts = self.neighbour_starts(level, &found, &mut generalised)?;
             if starts.is_empty() {
                 break;
             }
@@ -310,6 +303,11 @@ impl Search<'_> {
         }
         if !elsewhere.is_empty() {
             found = self.with_begun(level, found, &elsewhere)?;
+            // At its new place it may be a special case as well.
+            if !is_generalised(&found, &generalised) {
+                let starts = self.neighbour_starts(level, &found, &mut generalised)?;
+                found = self.with_begun(level, found, &starts)?;
+            }
         }
         let found = self.moved_along(level, found)?;
         let whole = level + 1 == self.levels.len();
