@@ -119,8 +119,8 @@ fn correct_sensor(scene: &Scene<'_>, channel: &str, [gain, delay]: [f64; 2]) -> 
 
 /// What the identification found becomes known.
 fn take_over(scene: &Scene<'_>, outcome: Option<Cached<Outcome>>) -> Result<Change, String> {
-    let found: Vec<(usize, f64)> = match outcome {
-        Some(Ok(outcome)) => identified::found(&scene.document.project.sources, &outcome).collect(),
+    let found = match outcome {
+        Some(Ok(outcome)) => identified::found(&scene.document.project.sources, &outcome),
         Some(Err(error)) => return Err(format!("Nothing was identified: {error}")),
         None => return Err("Identification is still running; ask again when it has ended.".to_owned()),
     };
