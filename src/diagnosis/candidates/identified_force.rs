@@ -93,7 +93,8 @@ impl PlaceData {
         spot: &Spot,
         forces: &[Vec<FreeForce>],
         fields: &Fields,
-        (impedances, static_compliance): (Vec<f64>, f64),
+        impedances: Vec<f64>,
+        static_compliance: f64,
         freedom: Option<ForceFreedom>,
     ) -> Self {
         let harmonics = data.runs.iter().map(|run| run.harmonics).max().unwrap_or(0);

@@ -54,7 +54,7 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
     // A hammer that roves is one channel, whatever the places it is named by.
     let one_force =
         forces.len() == 1 || cells.iter().filter_map(|cell| cell.nearest.as_ref()).all(|n| n.alone.is_some());
-    let (names, factor) = named(channels, (forces, one_force), sign, middle)?;
+    let (names, factor) = named(channels, forces, one_force, sign, middle)?;
     let mended = if names[0].starts_with("force@") { factor } else { 1.0 / factor };
     let error = |by: f64| {
         let relative_error = |mass: f64| (mass / by - 1.0).abs() / (mass / by).abs().max(1.0);
@@ -84,7 +84,8 @@ fn is_believed(modes: usize, error_after: f64) -> bool {
 /// g, which all accelerometers of a system share and forces in kgf hardly have.
 fn named(
     channels: &[String],
-    (forces, one_force): (&[String], bool),
+    forces: &[String],
+    one_force: bool,
     sign: f64,
     middle: f64,
 ) -> Option<(Vec<String>, f64)> {
@@ -179,15 +180,15 @@ mod tests {
         let names = |list: &[&str]| list.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let (motions, force) = (names(&["acc@3", "acc@5"]), names(&["force@5"]));
         let g = 9.806_65_f64;
-        assert_eq!(named(&motions, (&force, true), 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
-        assert_eq!(named(&motions, (&force, true), -1.0, 0.02), Some((force.clone(), -1.0)));
-        assert_eq!(named(&motions, (&force, true), 1.0, 0.02), None);
-        assert_eq!(named(&motions, (&force, true), 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force.clone()));
-        assert_eq!(named(&motions, (&[], true), 1.0, 2.0_f64.ln()), None);
+        assert_eq!(named(&motions, &force, true, 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
+        assert_eq!(named(&motions, &force, true, -1.0, 0.02), Some((force.clone(), -1.0)));
+        assert_eq!(named(&motions, &force, true, 1.0, 0.02), None);
+        assert_eq!(named(&motions, &force, true, 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force.clone()));
+        assert_eq!(named(&motions, &[], true, 1.0, 2.0_f64.ln()), None);
         // A thousandth may be that of either: of one force rather than of all sensors, but not of several forces.
-        let of_either = |one_force| named(&motions, (&force, one_force), 1.0, 1e3_f64.ln()).map(|found| found.0);
+        let of_either = |one_force| named(&motions, &force, one_force, 1.0, 1e3_f64.ln()).map(|found| found.0);
         assert_eq!(of_either(true), Some(force.clone()));
         assert_eq!(of_either(false), Some(motions.clone()));
-        assert_eq!(named(&motions, (&force, false), -1.0, 0.02).map(|found| found.0), Some(motions.clone()));
+        assert_eq!(named(&motions, &force, false, -1.0, 0.02).map(|found| found.0), Some(motions.clone()));
     }
 }

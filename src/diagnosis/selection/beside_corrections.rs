@@ -21,8 +21,8 @@ pub(super) fn beside_updating(
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
     let bare = reference.bare()?;
-    match first_candidates((&reference, before), &bare)? {
-        First::Fits(here, fits, corrected) => selected((&reference, &bare), before, (here, fits), corrected).map(Ok),
+    match first_candidates(&reference, before, &bare)? {
+        First::Fits(here, fits, corrected) => selected(&reference, &bare, before, here, fits, corrected).map(Ok),
         First::None(likely) => {
             let agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
             let found = Found { agrees, ..Found::beside(&bare, before) };
@@ -34,9 +34,11 @@ pub(super) fn beside_updating(
 
 /// The search with the updating parameters free from the candidates `first` on, beside corrections, which leave what `bare` does.
 pub(super) fn selected<'a>(
-    (reference, bare): (&ReferenceModel<'a>, &ReferenceModel<'a>),
+    reference: &ReferenceModel<'a>,
+    bare: &ReferenceModel<'a>,
     before: f64,
-    (mut here, first): (ReferenceModel<'a>, Vec<(ReferenceModel<'a>, FittedModel)>),
+    mut here: ReferenceModel<'a>,
+    first: Vec<(ReferenceModel<'a>, FittedModel)>,
     corrected: Option<(ReferenceModel<'a>, f64)>,
 ) -> Result<Outcome<'a>, DiagnosisError> {
     let stated = reference.estimator().error(&reference.predictions, &[]);
@@ -110,7 +112,8 @@ enum First<'a> {
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is refined but what one change explains instead of them.
 fn first_candidates<'a>(
-    (reference, before): (&ReferenceModel<'a>, f64),
+    reference: &ReferenceModel<'a>,
+    before: f64,
     bare: &ReferenceModel<'a>,
 ) -> Result<First<'a>, DiagnosisError> {
     let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
@@ -147,7 +150,7 @@ impl ReferenceModel<'_> {
     /// Whether this model, corrected and without any effect, explains the runs by what is free from run to run alone.
     fn is_scatter(&self) -> Result<bool, DiagnosisError> {
         let errors = [self.error_of_structure(&[], &Vec::new())?, self.floor()];
-        self.leaves(explains_by_scatter, errors, (&[], &Vec::new()))
+        self.leaves(explains_by_scatter, errors, &[], &Vec::new())
     }
 
     pub(super) fn floor(&self) -> f64 {

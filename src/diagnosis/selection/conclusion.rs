@@ -65,9 +65,10 @@ impl Outcome<'_> {
         let promised = self.promised(&quiet, best)?;
         let best = promised.as_ref().unwrap_or(best);
         let misfit = best.chi_square / reference.count().max(1) as f64;
-        let (errors, set) = ([best.error, diagnosis.noise_floor], (&best.effects[..], &best.starts));
-        let scattered = self.found.updated && quiet.leaves(explains_by_scatter, errors, set)?;
-        let doubtful = !quiet.linearisation.updating.is_believable() || quiet.leaves(leaves_much, errors, set)?;
+        let errors = [best.error, diagnosis.noise_floor];
+        let leaves = |judged: fn(f64, f64) -> bool| quiet.leaves(judged, errors, &best.effects, &best.starts);
+        let scattered = self.found.updated && leaves(explains_by_scatter)?;
+        let doubtful = !quiet.linearisation.updating.is_believable() || leaves(leaves_much)?;
         let left = misfit > UNEXPLAINED || (misfit > TOLERATED && misfit > TAKEN * self.found.without);
         let trust = if left || doubtful { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
@@ -144,7 +145,7 @@ impl Outcome<'_> {
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
         let errors = [error, diagnosis.noise_floor];
-        let scattered = self.found.updated && reference.leaves(explains_by_scatter, errors, (&[], &Vec::new()))?;
+        let scattered = self.found.updated && reference.leaves(explains_by_scatter, errors, &[], &Vec::new())?;
         // Nor corrections of damping that no model needs: they stand in for what is missing.
         let believable = reference.linearisation.updating.is_believable();
         // Nor where all motions together are turned against it by what is no scatter of runs.

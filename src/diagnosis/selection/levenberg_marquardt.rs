@@ -126,8 +126,8 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
         if equations.to_go() < enough || hopeless || problem.is_late() {
             break;
         }
-        let from = (&theta[..], &residual[..], &jacobian);
-        let Some((next, after, chi)) = step(problem, from, (&equations, enough), &mut damping)? else { break };
+        let stepped = step(problem, &theta, &residual, &jacobian, &equations, enough, &mut damping)?;
+        let Some((next, after, chi)) = stepped else { break };
         let gain = chi_square - chi;
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
@@ -204,8 +204,11 @@ type Point = (Vec<f64>, Vec<f64>, f64);
 /// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that promises a share of `enough`.
 fn step<R: Residual>(
     problem: &mut R,
-    (theta, residual, jacobian): (&[f64], &[f64], &Mat<f64>),
-    (equations, enough): (&Normal, f64),
+    theta: &[f64],
+    residual: &[f64],
+    jacobian: &Mat<f64>,
+    equations: &Normal,
+    enough: f64,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
@@ -229,7 +232,7 @@ fn step<R: Residual>(
                 next
             };
             let bend = if (failed || *damping > STRAIGHT) && share == 1.0 {
-                bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
+                bend(problem, theta, residual, jacobian, equations, *damping, &straight)?
             } else {
                 None
             };
@@ -255,7 +258,8 @@ fn step<R: Residual>(
 fn bend<R: Residual>(
     problem: &mut R,
     theta: &[f64],
-    (residual, jacobian): (&[f64], &Mat<f64>),
+    residual: &[f64],
+    jacobian: &Mat<f64>,
     equations: &Normal,
     damping: f64,
     straight: &[f64],

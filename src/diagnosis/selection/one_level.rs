@@ -61,7 +61,7 @@ pub(crate) fn explain<'a>(
         }
         let bare = reference.bare()?;
         let here = bare.with_scales(bare.linearisation.updating.scales);
-        return selected((reference, &bare), before, (here, fits), None).map(Some);
+        return selected(reference, &bare, before, here, fits, None).map(Some);
     }
     Ok(None)
 }

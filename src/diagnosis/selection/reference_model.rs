@@ -174,7 +174,7 @@ impl<'a> ReferenceModel<'a> {
             r.chi_square.is_finite()
                 && few(r)
                 && r.effects.iter().zip(&r.deviations).all(allowed)
-                && r.effects.iter().zip(&r.deviations).all(is_real)
+                && r.effects.iter().zip(&r.deviations).all(|(e, d)| is_real(e, d))
         });
         let scale = scale_of(&fits, self.count());
         fits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));

@@ -72,7 +72,7 @@ impl<'a> ReferenceModel<'a> {
         }
         drop(view);
         self.all_refined(&unfitted, f64::INFINITY, |k, most| {
-            self.refined_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH), most)
+            self.refined_set(&unfitted[k], targets[k].as_deref(), &[], &SEARCH, most)
         })
     }
 
@@ -139,7 +139,7 @@ impl<'a> ReferenceModel<'a> {
     ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
-        let stepped = self.stepped(updating, (&fit.effects, &fit.starts), settings)?;
+        let stepped = self.stepped(updating, &fit.effects, &fit.starts, settings)?;
         let Some((_, reference)) = stepped else { return Ok(None) };
         let fitted = reference.refitted(fit, settings)?;
         Ok(Some((reference, fitted)))
@@ -197,7 +197,7 @@ impl<'a> ReferenceModel<'a> {
         // On the same footing as what they are beside.
         let settings = settings_for(from, self.count(), &SEARCH);
         self.all_refined(&unfitted, cost(self, Some(from)) - BROUGHT * evidence, |k, most| {
-            self.refined_set(&unfitted[k], None, (&from.effects, settings), most)
+            self.refined_set(&unfitted[k], None, &from.effects, settings, most)
         })
     }
 
@@ -207,7 +207,8 @@ impl<'a> ReferenceModel<'a> {
         &self,
         unfitted: &UnfittedSet,
         target: Option<&[f64]>,
-        (others, settings): (&[Source], &Settings),
+        others: &[Source],
+        settings: &Settings,
         most: f64,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = joined(others, &unfitted.effects);

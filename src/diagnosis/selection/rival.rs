@@ -98,7 +98,7 @@ impl<'a, 'b> Rival<'a, 'b> {
         if !allowed || *least < most {
             return Ok(false);
         }
-        if (self.near || from.is_some()) && !predicts_better(weighed, (model, from))? {
+        if (self.near || from.is_some()) && !predicts_better(weighed, model, from)? {
             // Corrections alone were followed only so far as they were to be judged.
             self.model = self.model.take().filter(|_| from.is_some());
             return Ok(false);
@@ -197,7 +197,8 @@ fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<
 /// can stand for, predict little better: they are told by their evidence alone.
 fn predicts_better(
     weighed: &Weighed,
-    (likely, before): (&ReferenceModel, Option<&FittedModel>),
+    likely: &ReferenceModel,
+    before: Option<&FittedModel>,
 ) -> Result<bool, DiagnosisError> {
     let best = &weighed.fits[0];
     let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));

@@ -236,7 +236,7 @@ impl ReferenceModel<'_> {
             Spot::Leg(leg) if !self.data.runs.is_empty() => self.predictor.run(0).static_compliance(*leg),
             _ => 0.0,
         };
-        PlaceData::new(self.data, spot, forces, fields, (impedances, still), view.screen.freedom(s))
+        PlaceData::new(self.data, spot, forces, fields, impedances, still, view.screen.freedom(s))
     }
 
     /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.

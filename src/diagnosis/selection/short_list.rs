@@ -22,7 +22,7 @@ const CLEARLY: f64 = 1.2;
 pub(super) const VOID: f64 = 0.5;
 
 /// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
-pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
+pub(super) fn is_real(source: &Source, deviations: &[f64]) -> bool {
     let value = source.parameters[0];
     match source.effect.kind() {
         Kind::Channel(law) => {

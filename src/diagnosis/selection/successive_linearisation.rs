@@ -31,7 +31,7 @@ impl<'a> ReferenceModel<'a> {
                 break;
             }
             let left = most - reference.noise.cost();
-            let joint = reference.joint_fit((&[], &Vec::new()), &FINAL, JOINT_STEPS, left)?;
+            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS, left)?;
             let there = reference.updated(&joint.updating, &[], &Vec::new())?;
             let then = there.cost_at_reference(&there.predictions);
             if then >= here {
@@ -76,7 +76,7 @@ impl<'a> ReferenceModel<'a> {
                 break;
             }
             let left = most - reference.noise.cost();
-            let joint = reference.joint_fit((&fit.effects, &fit.starts), settings, JOINT_STEPS, left)?;
+            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS, left)?;
             let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
             let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
             let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);

@@ -183,7 +183,7 @@ impl<'a> ReferenceModel<'a> {
     pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let rigid = Updating::all(stated, known, self.data);
-        let stepped = |updating: Updating| self.stepped(updating, (&[], &Vec::new()), &FINAL);
+        let stepped = |updating: Updating| self.stepped(updating, &[], &Vec::new(), &FINAL);
         let mut best = stepped(rigid.clone())?;
         if best.as_ref().is_none_or(|(left, _)| *left > SUPPORTED * self.count() as f64) {
             for updating in rigid.giving_way() {
@@ -203,7 +203,8 @@ impl<'a> ReferenceModel<'a> {
     pub(super) fn stepped(
         &self,
         mut updating: Updating,
-        (effects, starts): (&[Source], &Starts),
+        effects: &[Source],
+        starts: &Starts,
         settings: &Settings,
     ) -> Result<Option<(f64, ReferenceModel<'a>)>, DiagnosisError> {
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;

@@ -320,7 +320,7 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
             _ => false,
         });
         (updated || source.effect.adds_to(Constant::Mass))
-            && is_within_part(reference.predictor.structure(), (source, deviation), part, OF_THE_PART)
+            && is_within_part(reference.predictor.structure(), source, deviation, part, OF_THE_PART)
     };
     !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().zip(&fit.deviations).any(within)
 }
