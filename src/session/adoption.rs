@@ -97,7 +97,7 @@ impl Adoption {
     /// # Errors
     /// As [`Self::corrections`] and [`Self::effect`].
     pub fn suggestion(&mut self, source: &Source, diagnosis: &Diagnosis, known: &[Source]) -> Result<(), Refusal> {
-        if diagnosis.is_promised_with_its_set(source) {
+        if diagnosis.is_told_with_its_set(source) {
             self.corrections(diagnosis, known)?;
         }
         self.set_of(source, diagnosis)

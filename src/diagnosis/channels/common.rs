@@ -21,7 +21,7 @@ const WITHIN: f64 = 0.3;
 /// Share of the modes that must show it, and how many where there are several.
 const SHARE: f64 = 0.6;
 const MODES: usize = 2;
-/// Runs at different frequencies from which on one mode alone is believed.
+/// Runs at different frequencies from which on one mode alone is accepted.
 const ALONE: usize = 3;
 /// Largest relative error of its mass by the factor of the misreading then. A strong nonlinear spring or friction next to a mode changes
 /// the slope too, by any factor, where masses of models are right to some per cent.
@@ -61,7 +61,7 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
         median(&masses.iter().map(|(mass, _)| relative_error(*mass)).collect::<Vec<f64>>())
     };
     let (error_before, error_after) = (error(1.0), error(mended));
-    if !is_believed(masses.len(), error_after) {
+    if !is_accepted(masses.len(), error_after) {
         return None;
     }
     Some(ChannelFault {
@@ -75,7 +75,7 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
 }
 
 /// Whether so many modes say a factor that leaves an error of their masses.
-fn is_believed(modes: usize, error_after: f64) -> bool {
+fn is_accepted(modes: usize, error_after: f64) -> bool {
     modes >= MODES || error_after <= ALONE_WITHIN
 }
 
@@ -172,7 +172,7 @@ mod tests {
     /// A Bouc-Wen joint under an isolated building showed a mass of 2.56, which is no 3.28 of feet.
     #[test]
     fn one_mode_alone_must_fit_its_factor() {
-        assert!(is_believed(1, 0.03) && !is_believed(1, 0.22) && is_believed(2, 0.22));
+        assert!(is_accepted(1, 0.03) && !is_accepted(1, 0.22) && is_accepted(2, 0.22));
     }
 
     #[test]

@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// The hypothesis that leaves least, of those that are believed.
+    /// The hypothesis that leaves least, of those that are accepted.
     fn best(&self, hypotheses: &[Hypothesis], before: &Errors) -> Option<(Hypothesis, ChannelFault)> {
         let judged = hypotheses.iter().filter_map(|hypothesis| {
             let after = self.errors(Some(hypothesis));
