@@ -310,8 +310,8 @@ fn damping_that_identify_finds_is_taken_over_before_the_model_is_compared() {
         [[run]]\nfile = \"b.csv\"\nfrequency = 15.8\nforce_dof = 1\nforce_n = 1\n";
     fs::write(folder.path().join("p.toml"), recipe).unwrap();
     dashpot(&["simulate", "p.toml", "--out", ".", "--noise", "0.001"], folder.path());
-    fs::write(folder.path().join("p.toml"), recipe.replace("state = \"known\"\nc = 0.2", "state = \"candidate\""))
-        .unwrap();
+    let sought = recipe.replace("state = \"known\"\nc = 0.2", "state = \"candidate\" # the damper of the door");
+    fs::write(folder.path().join("p.toml"), sought).unwrap();
     let output = dashpot(&["compare", "p.toml", "--json"], folder.path());
     assert!(text(&output.stderr).contains("the model has no damping yet"), "{}", text(&output.stderr));
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -322,6 +322,9 @@ fn damping_that_identify_finds_is_taken_over_before_the_model_is_compared() {
     assert_eq!(found["identified"][0]["effect"], "viscous");
     let again = json(&["compare", "q.toml", "--json"], folder.path());
     assert!(again["error"].as_f64().unwrap() < 0.01 && again.get("identified").is_none(), "{}", again["error"]);
+    let written = fs::read_to_string(folder.path().join("q.toml")).unwrap();
+    assert!(written.contains("state = \"known\" # the damper of the door\n"), "{written}");
+    assert_eq!(written.matches("[[source]]").count(), 1, "{written}");
 }
 
 /// Two of the samples are the same cantilever with other dashpots.

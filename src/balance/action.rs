@@ -104,7 +104,7 @@ fn leg_energy(law: &dyn Law, p: &[f64], field: Field<'_>, d: &[c64], scale: f64)
 fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> f64 {
     (0..field.numbers.len())
         .map(|k| {
-            let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
+            let bx = basis_times(law, source, structure, field, k);
             let factor = law.factor(source.coefficient(), field.frequency(k)).im;
             let form: f64 = (0..bx.len()).map(|i| (field.x[(i, k)].conj() * bx[i]).re).sum();
             PI * field.numbers[k] as f64 * factor * form
@@ -112,27 +112,10 @@ fn whole_energy(law: &dyn WholeLaw, source: &Source, structure: &Structure, fiel
         .sum()
 }
 
-/// `B x_k` with `B` the mass or stiffness matrix, whole or restricted to a range of elements; zero without matrices.
-fn basis_times(structure: &Structure, basis: Basis, range: Option<[usize; 2]>, field: Field<'_>, k: usize) -> Vec<c64> {
-    let x = field.x;
-    let mut product = vec![c64::new(0.0, 0.0); structure.len()];
-    if let Some(range) = range {
-        basis.entries(structure, range).for_each(|(i, j, value)| product[i] += x[(j, k)] * value);
-    } else if let Some(matrices) = structure.matrices() {
-        let matrix = basis.of_system(matrices);
-        for j in 0..structure.len() {
-            let value = x[(j, k)];
-            for i in 0..structure.len() {
-                product[i] += value * matrix[(i, j)];
-            }
-        }
-        for mode in structure.damping_of_modes() {
-            let along = (mode.pattern.iter().enumerate()).fold(c64::new(0.0, 0.0), |s, (i, v)| s + x[(i, k)] * *v);
-            let amplitude = along * basis.more_of_at(mode, field.frequency(k));
-            product.iter_mut().zip(&mode.pattern).for_each(|(p, v)| *p += amplitude * *v);
-        }
-    }
-    product
+/// `B x_k` of a law of the whole structure, with `B` the matrix on which it acts.
+fn basis_times(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>, k: usize) -> Vec<c64> {
+    let (range, x) = (source.place.elements(), field.x.col_as_slice(k));
+    law.basis().times(structure, range, field.frequency(k), c64::new(1.0, 0.0), x)
 }
 
 /// Adds `weight` times the gradient of [`energy`] to `gradient` (n x harmonics): a change `dX` of the motion changes the
@@ -161,7 +144,7 @@ pub(crate) fn add_energy_gradient(
             for k in 0..field.numbers.len() {
                 let factor = law.factor(source.coefficient(), field.frequency(k)).im;
                 let scale = weight * 2.0 * PI * field.numbers[k] as f64 * factor;
-                let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
+                let bx = basis_times(law, source, structure, field, k);
                 for (i, value) in bx.into_iter().enumerate() {
                     gradient[(i, k)] += value * scale;
                 }
@@ -207,7 +190,7 @@ pub(crate) fn force(source: &Source, structure: &Structure, field: Field<'_>) ->
 fn whole_force(law: &dyn WholeLaw, source: &Source, structure: &Structure, field: Field<'_>) -> Vec<DofForce> {
     let at_harmonic = |k: usize| -> Vec<c64> {
         let factor = law.factor(source.coefficient(), field.frequency(k));
-        let bx = basis_times(structure, law.basis(), source.place.elements(), field, k);
+        let bx = basis_times(law, source, structure, field, k);
         bx.into_iter().map(|v| v * factor).collect()
     };
     let columns: Vec<Vec<c64>> = (0..field.numbers.len()).map(at_harmonic).collect();

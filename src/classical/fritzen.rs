@@ -56,7 +56,7 @@ pub fn fritzen(loads: &[LoadCase]) -> Result<Identified, ClassicalError> {
         let y = solve(normal.as_ref(), (wide.transpose() * &b).as_ref(), "the instrumental matrix", 0.0)?;
         Ok(filled(a.ncols(), 1, |i, _| y[(i, 0)] / scale[i]))
     };
-    let (p, steps) = fixed_point(filled(a.ncols(), 1, |i, _| x[i]), (STEPS, SETTLED), next)?;
+    let (p, steps) = fixed_point(filled(a.ncols(), 1, |i, _| x[i]), STEPS, SETTLED, next)?;
     let mut identified = split(&p, n, reference);
     identified.damping.notes.push(steps);
     Ok(identified)

@@ -51,7 +51,7 @@ pub fn instrumental(receptance: &ReceptanceData) -> Result<Identified, Classical
         let (normal, load) = (instruments.transpose() * &a, instruments.transpose() * &right);
         solve(normal.as_ref(), load.as_ref(), "the instrumental matrix", 0.0)
     };
-    let (x, steps) = fixed_point(start, (STEPS, SETTLED), next)?;
+    let (x, steps) = fixed_point(start, STEPS, SETTLED, next)?;
     let mut identified = split(&x, n, reference);
     identified.damping.notes.push(steps);
     Ok(identified)

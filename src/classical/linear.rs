@@ -31,7 +31,8 @@ pub(super) fn solve(
 /// `settled`.
 pub(super) fn fixed_point(
     start: Mat<f64>,
-    (steps, settled): (usize, f64),
+    steps: usize,
+    settled: f64,
     next: impl Fn(&Mat<f64>) -> Result<Mat<f64>, ClassicalError>,
 ) -> Result<(Mat<f64>, String), ClassicalError> {
     let (mut x, mut change) = (start, f64::INFINITY);

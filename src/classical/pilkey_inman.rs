@@ -30,7 +30,7 @@ pub fn iterative(m: MatRef<'_, f64>, modes: &ModalData) -> Result<Damping, Class
         let size = |psi: &[c64], lambda: c64| form(psi, m, psi) * lambda * 2.0 + form(psi, c.as_ref(), psi);
         Ok(lancaster::sum(m, &scaled(modes, size)))
     };
-    let (c, steps) = fixed_point(Mat::zeros(m.nrows(), m.ncols()), (STEPS, SETTLED), next)?;
+    let (c, steps) = fixed_point(Mat::zeros(m.nrows(), m.ncols()), STEPS, SETTLED, next)?;
     let mut damping = Damping::viscous(c);
     damping.notes.push(steps);
     Ok(damping)

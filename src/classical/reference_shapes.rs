@@ -78,10 +78,10 @@ pub(crate) fn beside(references: &[ReferenceShape], measured: Option<&ModalData>
     let best_match = |reference: &ReferenceShape| {
         let complex = |modal: &ModalData, p: usize| {
             let hz = modal.poles[p].norm() / std::f64::consts::TAU;
-            compared(reference, (p, hz), Some(modal.damping_ratio(p)), |i| modal.shapes[(i, p)])
+            compared(reference, p, hz, Some(modal.damping_ratio(p)), |i| modal.shapes[(i, p)])
         };
         let undamped =
-            |p: usize| compared(reference, (p, model.frequency_hz(p)), None, |i| c64::new(model.shapes[(i, p)], 0.0));
+            |p: usize| compared(reference, p, model.frequency_hz(p), None, |i| c64::new(model.shapes[(i, p)], 0.0));
         let measured = measured.and_then(|modal| best(reference, (0..modal.len()).map(|p| complex(modal, p))));
         let modes = (0..model.shapes.ncols()).map(undamped);
         Beside { reference: reference.clone(), measured, model: best(reference, modes) }
@@ -98,7 +98,8 @@ fn best(reference: &ReferenceShape, modes: impl Iterator<Item = Match>) -> Optio
 
 fn compared(
     reference: &ReferenceShape,
-    (mode, frequency_hz): (usize, f64),
+    mode: usize,
+    frequency_hz: f64,
     damping_ratio: Option<f64>,
     shape: impl Fn(usize) -> c64,
 ) -> Match {

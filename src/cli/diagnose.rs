@@ -286,9 +286,7 @@ fn error_of(out: &Path, control: &Control) -> Option<f64> {
 fn apply(file: &Path, out: &Path, written: &Written, diagnosis: &Diagnosis) -> anyhow::Result<bool> {
     let context = || file.display().to_string();
     let mut adoption = Adoption::new(&written.document);
-    for source in written.taken {
-        adoption.effect(source).with_context(context)?;
-    }
+    adoption.identified(written.taken).with_context(context)?;
     let known = problem(written.project).known();
     adoption.diagnosis(diagnosis, &known, written.project).with_context(context)?;
     tell_unwritten(&adoption, written.project, diagnosis);

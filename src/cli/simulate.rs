@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Simulate) -> anyhow::Result<String> {
     for index in 0..plan.runs.len() {
         let noise = arguments.noise_of(index);
         if let Some(test) = plan.runs[index].test {
-            let record = recorded_test(&plan, (index, test), &shifted(&plan, index), &sources, noise);
+            let record = recorded_test(&plan, index, test, &shifted(&plan, index), &sources, noise);
             simulated.push(record.map_err(|error| at_run(&plan, index, error))?);
             continue;
         }
@@ -119,7 +119,8 @@ fn in_time(
 /// A test that is not steady, recorded with filter, noise and converter.
 fn recorded_test(
     plan: &Plan,
-    (index, test): (usize, PlannedTest),
+    index: usize,
+    test: PlannedTest,
     structure: &Structure,
     sources: &[Source],
     noise: Option<Noise>,

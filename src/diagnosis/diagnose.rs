@@ -10,7 +10,8 @@ use crate::diagnosis::residual::prediction::{Predictor, RunPrediction};
 use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::{found, one_level, stepwise};
+use crate::diagnosis::selection::search_result::agrees;
+use crate::diagnosis::selection::{one_level, stepwise};
 use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use std::sync::Arc;
@@ -123,7 +124,7 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), data)?);
     let reference = ReferenceModel::new(predictor.clone(), data, control, early)?;
     let mut faults = channels::find(&predictor, data, &reference.predictions);
-    let asis = reference.agreement();
+    let as_stated = reference.agreement();
     drop(reference);
     let mendable = faults.len();
     let mut diagnosis = loop {
@@ -138,9 +139,9 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
         return Ok(diagnosis);
     }
     if mendable > 0 {
-        diagnosis.follows(asis, faults);
+        diagnosis.follows(as_stated, faults);
     } else {
-        diagnosis.error_before = asis.error;
+        diagnosis.error_before = as_stated.error;
         diagnosis.channel_faults = faults;
     }
     Ok(diagnosis)
@@ -151,7 +152,7 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
     let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
     let noise_floor = reference.noise_floor(&[], &reference.predictions);
     let diagnosis = Diagnosis::adequate(reference.agreement(), noise_floor);
-    if found::agrees(&reference, before, 0) {
+    if agrees(&reference, before, 0) {
         return Ok(Ok(diagnosis));
     }
     let (control, stated) = (reference.control, reference.clone());

@@ -201,18 +201,18 @@ impl Diagnosis {
         }
     }
 
-    /// What is added with `source`: the whole set that its error was promised with, else it alone.
+    /// What is added with `source`: the whole set that its error is told with, else it alone.
     pub fn added_with(&self, source: &Source) -> Vec<Source> {
-        match self.steps.last().filter(|_| self.is_promised_with_its_set(source)) {
+        match self.steps.last().filter(|_| self.is_told_with_its_set(source)) {
             Some(step) => step.added.iter().map(|added| added.source.clone()).collect(),
             None => vec![source.clone()],
         }
     }
 
-    /// Makes this the answer to data whose channels had `faults`, with which the model agreed as `asis` says.
-    pub(crate) fn follows(&mut self, asis: Step, mut faults: Vec<ChannelFault>) {
-        self.error_before = asis.error;
-        self.steps.insert(0, asis);
+    /// Makes this the answer to data whose channels had `faults`, with which the model agreed as `as_stated` says.
+    pub(crate) fn follows(&mut self, as_stated: Step, mut faults: Vec<ChannelFault>) {
+        self.error_before = as_stated.error;
+        self.steps.insert(0, as_stated);
         if self.verdict == Verdict::Adequate {
             self.verdict = Verdict::Missing;
         }
@@ -222,7 +222,7 @@ impl Diagnosis {
 
     /// Whether `source` is of the set of the last step, and the error that is told of it is that of the set and of the corrections that
     /// were fitted beside it: where there are any, or where it is told of each of them.
-    pub fn is_promised_with_its_set(&self, source: &Source) -> bool {
+    pub fn is_told_with_its_set(&self, source: &Source) -> bool {
         let Some(step) = self.steps.last() else { return false };
         let is_member = step.added.iter().any(|added| added.source.is_same(source));
         let told = self.suggestions.iter().find(|s| s.added.source.is_same(source));

@@ -1,7 +1,7 @@
 //! The two matrices of a structure on which laws of the whole structure act, or those of a range of its elements.
 
 use crate::structure::{DampingOfMode, Structure, SystemMatrices};
-use faer::Mat;
+use faer::{Mat, c64};
 
 /// Which matrix of the structure a whole-structure law multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +38,27 @@ impl Basis {
         Some(matrix)
     }
 
+    /// `factor B x` at `omega`, rad/s, with `B` as [`Self::matrix`] has it, its damping of modes as it is there; zeros without matrices.
+    pub(crate) fn times(
+        self,
+        structure: &Structure,
+        range: Option<[usize; 2]>,
+        omega: f64,
+        factor: c64,
+        x: &[c64],
+    ) -> Vec<c64> {
+        let mut product = vec![c64::new(0.0, 0.0); structure.len()];
+        if let Some(range) = range {
+            self.entries(structure, range).for_each(|(i, j, value)| product[i] += factor * x[j] * value);
+        } else if let Some(system) = structure.matrices() {
+            product = multiply(self.of_system(system), factor, x);
+            for mode in structure.damping_of_modes() {
+                add_along(&mode.pattern, factor * self.more_of_at(mode, omega), x, &mut product);
+            }
+        }
+        product
+    }
+
     /// What the matrix of a structure has more of a mode than that of the system, `(f - 1) b`.
     fn more_of(self, mode: &DampingOfMode) -> f64 {
         (mode.factor - 1.0) * self.of_mode(mode.square)
@@ -67,4 +88,24 @@ impl Basis {
             element.entries(if self == Self::Mass { &element.mass } else { &element.stiffness })
         })
     }
+}
+
+/// Adds `factor v v^T x` to `result`.
+pub(crate) fn add_along(v: &[f64], factor: c64, x: &[c64], result: &mut [c64]) {
+    let along = v.iter().zip(x).fold(c64::new(0.0, 0.0), |sum, (v, x)| sum + *x * *v);
+    result.iter_mut().zip(v).for_each(|(r, v)| *r += factor * along * *v);
+}
+
+/// `factor B x`.
+pub(crate) fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
+    let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
+    for (j, &value) in x.iter().enumerate() {
+        let scaled = factor * value;
+        if scaled.norm_sqr() > 0.0 {
+            for (r, a) in result.iter_mut().zip(matrix.col_as_slice(j)) {
+                *r += scaled * *a;
+            }
+        }
+    }
+    result
 }

@@ -104,7 +104,7 @@ pub(crate) struct Internal<T>(pub T);
 impl<T: InternalLaw> Internal<T> {
     /// Where each way of the period starts and leads to from the force `start`, in place of those of another start; the force at the end,
     /// and its derivative by `start`.
-    fn period(&self, (shape, p): (&T::Shape, &[f64]), d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
+    fn period(&self, shape: &T::Shape, p: &[f64], d: &[f64], start: f64, ways: &mut Vec<(f64, Way)>) -> [f64; 2] {
         let [mut force, mut slope] = [start, 1.0];
         for n in 0..d.len() {
             // What has forgotten its start goes on as before.
@@ -138,7 +138,7 @@ impl<T: InternalLaw> Internal<T> {
         let size = bound.min(self.0.stiffness(p) * range);
         let (mut ways, mut slope) = (Vec::with_capacity(d.len()), 1.0);
         for _ in 0..STEPS {
-            let [end, by_start] = self.period((&shape, p), d, start, &mut ways);
+            let [end, by_start] = self.period(&shape, p, d, start, &mut ways);
             slope = by_start;
             if (slope - 1.0).abs() < 1.0 - SLIPLESS {
                 break;

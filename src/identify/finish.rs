@@ -18,10 +18,10 @@ use crate::math::subsets::RankedSet;
 pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, IdentifyError> {
     let energy = System::energy(problem, &found.state, problem.settings.weights);
     let known: Vec<Vec<f64>> = known_energies(problem, found);
-    let teller = Teller { problem, found, energy: &energy, known: &known };
+    let builder = OutcomeBuilder { problem, found, energy: &energy, known: &known };
     let mut steps = Vec::new();
     for ranking in &found.rankings {
-        steps.push(teller.step(ranking)?);
+        steps.push(builder.step(ranking)?);
     }
     let accepted = found.decision.accepted;
     let set = found.rankings[accepted].best().columns.clone();
@@ -31,7 +31,7 @@ pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, I
         widen(&mut fit, &mut steps[accepted], &larger);
     }
     let mut sources = steps[accepted].sources.clone();
-    sources.extend(teller.known_sources(&set, &fit.coefficients));
+    sources.extend(builder.known_sources(&set, &fit.coefficients));
     let coefficients = solve::scattered(problem.columns.len(), &set, &fit.coefficients);
     let acting = problem.acting(&coefficients);
     let input = ResultsInput {
@@ -49,8 +49,8 @@ pub(super) fn outcome(problem: &Problem<'_>, found: &Found) -> Result<Outcome, I
         expansion: problem.expander.method(),
         weights: weights::resolve(problem.settings.weights, &found.state.runs),
         model_error: found.state.model_error,
-        runs: teller.runs(&steps[accepted], &acting),
-        records: teller.records(&steps[accepted]),
+        runs: builder.runs(&steps[accepted], &acting),
+        records: builder.records(&steps[accepted]),
         collinear: collinear::groups(problem, found),
         warnings: warnings::all(problem, found, &fit, &set),
         results: results::results(&input),
@@ -73,14 +73,14 @@ fn known_energies(problem: &Problem<'_>, found: &Found) -> Vec<Vec<f64>> {
     problem.known.iter().enumerate().map(with_windows).collect()
 }
 
-struct Teller<'a> {
+struct OutcomeBuilder<'a> {
     problem: &'a Problem<'a>,
     found: &'a Found,
     energy: &'a System,
     known: &'a [Vec<f64>],
 }
 
-impl Teller<'_> {
+impl OutcomeBuilder<'_> {
     fn step(&self, ranking: &SizeRanking) -> Result<SelectionStep, IdentifyError> {
         let (problem, system, equation) = (self.problem, &self.found.system, &self.found.state.equation);
         let columns = &ranking.best().columns;

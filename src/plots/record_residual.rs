@@ -47,7 +47,7 @@ impl RecordResidual {
             axis: Axis::of(words::axis(channel.quantity, rotation)),
             samples: three.map(|y| Arc::new(Pyramid::new(&found.time, y))),
             spectra: spectra(three, step),
-            spectrogram: Spectrogram::new(&left, measured, (found.time[0], step)),
+            spectrogram: Spectrogram::new(&left, measured, found.time[0], step),
         })
     }
 

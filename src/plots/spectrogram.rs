@@ -40,7 +40,7 @@ pub struct Spectrogram {
 
 impl Spectrogram {
     /// Of `signal` beside `reference`, which begin at `start` s with `step` s between samples; `None` where they are too short.
-    pub fn new(signal: &[f64], reference: &[f64], (start, step): (f64, f64)) -> Option<Self> {
+    pub fn new(signal: &[f64], reference: &[f64], start: f64, step: f64) -> Option<Self> {
         let length = (2 * signal.len() / (COLUMNS + 1)).max(FEWEST);
         if signal.len() < 2 * length {
             return None;
@@ -201,7 +201,7 @@ mod tests {
         let time = |n: usize| f64::from(u32::try_from(n).unwrap()) * step;
         let tone: Vec<f64> = (0..8000).map(|n| (TAU * 20.0 * time(n)).sin()).collect();
         let burst = |n: usize| if (5000..6500).contains(&n) { 0.1 * (TAU * 50.0 * time(n)).sin() } else { 0.0 };
-        let found = Spectrogram::new(&(0..8000).map(burst).collect::<Vec<f64>>(), &tone, (0.0, step)).unwrap();
+        let found = Spectrogram::new(&(0..8000).map(burst).collect::<Vec<f64>>(), &tone, 0.0, step).unwrap();
         assert!(found.decibels.len() >= COLUMNS - 2 && found.range_hz[1] < 120.0, "{:?}", found.range_hz);
         let rows = found.decibels[0].len();
         let window = (5.75 / 8.0 * found.decibels.len() as f64) as usize;

@@ -98,7 +98,7 @@ pub fn sensitivities(
         check(*unknown, sources, run.len(), excitation.forces.len())?;
     }
     let run = run.fitting(sources);
-    let derivatives_at = |u: &[f64], order: usize| at_order(&run, sources, excitation, (u, order), dofs, unknowns);
+    let derivatives_at = |u: &[f64], order: usize| at_order(&run, sources, excitation, u, order, dofs, unknowns);
     let mut fine = derivatives_at(&response.unknowns, response.order())?;
     if let Some((order, coarse)) = &response.coarse {
         let order = *order;
@@ -147,7 +147,8 @@ fn at_order(
     run: &RunModel,
     sources: &[Source],
     excitation: &Excitation,
-    (u, order): (&[f64], usize),
+    u: &[f64],
+    order: usize,
     dofs: &[usize],
     unknowns: &[Unknown],
 ) -> Result<Vec<Mat<c64>>, SensitivityError> {

@@ -4,6 +4,7 @@
 use super::command::{Command, SourceAt, SourceSpec};
 use super::corrections::{Adopted, adopt, adopt_all};
 use super::document::Document;
+use super::identified::known;
 use super::mending;
 use super::refusal::Refusal;
 use super::sensors::further;
@@ -96,7 +97,7 @@ impl Adoption {
     /// # Errors
     /// As [`Self::corrections`] and [`Self::effect`].
     pub fn suggestion(&mut self, source: &Source, diagnosis: &Diagnosis, known: &[Source]) -> Result<(), Refusal> {
-        if diagnosis.is_promised_with_its_set(source) {
+        if diagnosis.is_told_with_its_set(source) {
             self.corrections(diagnosis, known)?;
         }
         self.set_of(source, diagnosis)
@@ -123,23 +124,23 @@ impl Adoption {
         self.make(mending::command(fault, project)?)
     }
 
-    /// What was identified becomes known at its values; `found` are indices of sources of the document with their coefficients.
+    /// What was identified becomes known, as `identified::known` says; `found` are sources of the document at their coefficients.
     ///
     /// # Errors
     /// [`Refusal`]: a law without a coefficient.
-    pub fn identified(&mut self, found: &[(usize, f64)]) -> Result<(), Refusal> {
+    pub fn identified(&mut self, found: &[Source]) -> Result<(), Refusal> {
         let sources = self.document.sources().clone();
-        for (source, value) in found.iter().filter_map(|&(index, value)| Some((sources.get(index)?, value))) {
-            let k = source.effect.coefficient().ok_or(Refusal::NoCoefficient { law: source.effect.title() })?;
-            // What is known there already gets the coefficient on top of its own.
-            let own = known_there(source, &self.document).map(|known| known.parameters[k]);
-            let parameters =
-                BTreeMap::from([(source.effect.parameters()[k].name.to_owned(), value + own.unwrap_or(0.0))]);
-            let at = SourceAt::of(source, self.document.structure());
-            let known = SourceAt { state: Some(State::Known), ..at.clone() };
-            let state = if own.is_some() { State::Off } else { State::Known };
-            self.make(Command::SetSourceState { source: at, state })?;
-            self.make(Command::SetSourceParameters { source: known, parameters })?;
+        for (index, Source { effect, state, parameters, .. }) in known(&sources, found) {
+            let k = effect.coefficient().ok_or(Refusal::NoCoefficient { law: effect.title() })?;
+            let source = SourceAt::of(&sources[index], self.document.structure());
+            if state != sources[index].state {
+                self.make(Command::SetSourceState { source: source.clone(), state })?;
+            }
+            if state == State::Known {
+                let parameters = BTreeMap::from([(effect.parameters()[k].name.to_owned(), parameters[k])]);
+                let source = SourceAt { state: Some(state), ..source };
+                self.make(Command::SetSourceParameters { source, parameters })?;
+            }
         }
         Ok(())
     }

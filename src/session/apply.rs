@@ -1,6 +1,6 @@
 //! What each command does to a project file. The caller checks the whole file afterwards and keeps the old one if it fails.
 
-use super::command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
+use super::command::{Command, Setting, SourceAt, SourceSpec};
 use super::document::Document;
 use super::mending::mend;
 use super::refusal::Refusal;
@@ -213,27 +213,22 @@ fn within(name: &'static str, value: f64, holds: bool, range: &'static str) -> D
     if holds { Ok(()) } else { Err(Refusal::OutOfRange { name, range, value }) }
 }
 
-fn ruled_out(at: &EffectAt) -> RuledOutTable {
-    let EffectAt { law, dofs, elements, channel } = at.clone();
-    RuledOutTable { law, dofs: sources::labels(&dofs), elements, channel }
-}
-
 /// Where an effect is among those that are ruled out.
-fn ruled_out_at(file: &ProjectFile, at: &EffectAt, on: &Structure) -> Result<Option<usize>, Refusal> {
-    let wanted = sources::ruled_out(&ruled_out(at), on)?;
+fn ruled_out_at(file: &ProjectFile, at: &RuledOutTable, on: &Structure) -> Result<Option<usize>, Refusal> {
+    let wanted = sources::ruled_out(at, on)?;
     let same = |table: &RuledOutTable| table.source(on).is_ok_and(|source| source.is_same(&wanted));
     Ok(file.ruled_out.iter().position(same))
 }
 
-fn rule_out(file: &mut ProjectFile, at: &EffectAt, on: &Structure) -> Done {
+fn rule_out(file: &mut ProjectFile, at: &RuledOutTable, on: &Structure) -> Done {
     if ruled_out_at(file, at, on)?.is_some() {
         return Err(Refusal::RuledOutTwice { law: at.law });
     }
-    file.ruled_out.push(ruled_out(at));
+    file.ruled_out.push(at.clone());
     Ok(())
 }
 
-fn allow(file: &mut ProjectFile, at: &EffectAt, on: &Structure) -> Done {
+fn allow(file: &mut ProjectFile, at: &RuledOutTable, on: &Structure) -> Done {
     let index = ruled_out_at(file, at, on)?.ok_or(Refusal::NotRuledOut { law: at.law })?;
     file.ruled_out.remove(index);
     Ok(())

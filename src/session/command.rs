@@ -6,6 +6,7 @@ use crate::balance::{Expansion, Weights};
 use crate::effects::{Effect, Family, Source, State, WrittenPlace};
 use crate::exchange::project::correction::CorrectionTable;
 use crate::exchange::project::file::ReportTable;
+use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::structure::Structure;
 use crate::structure::beam::Supports;
 use serde::{Deserialize, Serialize};
@@ -58,31 +59,6 @@ impl SourceAt {
     pub fn of(source: &Source, structure: &Structure) -> Self {
         let WrittenPlace { dofs, elements, .. } = source.place.written(structure);
         Self { law: source.effect, dofs, elements, state: Some(source.state) }
-    }
-}
-
-/// An effect at a place of the structure or in a channel.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EffectAt {
-    /// The law.
-    pub law: Effect,
-    /// Labels of its DOFs, in either direction.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub dofs: Vec<String>,
-    /// First and last beam element, from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub elements: Option<[i64; 2]>,
-    /// Channel of an error of the measuring chain, such as `acc@7`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub channel: Option<String>,
-}
-
-impl EffectAt {
-    /// The effect of a source where it acts.
-    pub fn of(source: &Source, structure: &Structure) -> Self {
-        let WrittenPlace { dofs, elements, channel } = source.place.written(structure);
-        Self { law: source.effect, dofs, elements, channel }
     }
 }
 
@@ -193,9 +169,9 @@ pub enum Command {
     /// Mends what channels were found to read wrongly in their mapping.
     MendChannels(Mending),
     /// States that an effect at its place is not what the model lacks: the search suggests others.
-    RuleOut(EffectAt),
+    RuleOut(RuledOutTable),
     /// Takes that back.
-    Allow(EffectAt),
+    Allow(RuledOutTable),
     /// Changes a setting of the analysis.
     SetSetting(Setting),
 }

@@ -24,7 +24,7 @@ pub mod time_limit;
 pub mod validation;
 pub mod workers;
 
-pub use command::{Command, EffectAt, Setting, SourceAt, SourceSpec};
+pub use command::{Command, Setting, SourceAt, SourceSpec};
 pub use document::{Document, Revisions};
 pub use refusal::Refusal;
 pub use session::Session;

@@ -115,7 +115,8 @@ impl Structure {
     /// Notes how the structure came about, and which of its nodes were turned; lumped masses ride on the base like all others.
     pub(crate) fn set_origin(
         &mut self,
-        (notes, turned): (Vec<String>, Vec<TurnedNode>),
+        notes: Vec<String>,
+        turned: Vec<TurnedNode>,
         mut reduction: Option<Reduction>,
         lumped: &[LumpedMass],
     ) {

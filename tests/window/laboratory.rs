@@ -5,7 +5,7 @@ use crate::friction::friction;
 use crate::support::{Sample, open, settle};
 use dashpot::control::Control;
 use dashpot::diagnosis::{Diagnosis, Problem, compare};
-use dashpot::effects::{Effect, Place, State};
+use dashpot::effects::{Effect, Place, Source, State};
 use dashpot::exchange::project::load;
 use dashpot::identify::identify;
 use dashpot::session::identified::take_over;
@@ -156,4 +156,7 @@ fn the_button_takes_over_what_the_command_line_does() {
     press(&mut harness, "Add the identified sources");
     let here = error(&harness);
     assert!((here / there - 1.0).abs() < 1e-6, "{here} in the window, {there} on the command line");
+    let document = harness.state().document.as_ref().unwrap();
+    let known = |sources: &[Source]| sources.iter().filter(|s| s.state == State::Known).cloned().collect::<Vec<_>>();
+    assert_eq!(known(document.session().document().sources()), known(&project.sources));
 }

@@ -25,15 +25,22 @@ pub(crate) fn room(count: u64) -> Read<Vec<f64>> {
 const PIECE: u64 = 1 << 20;
 
 /// `count` numbers that are `stride` numbers apart, from where the reader stands; only one piece of the file is in memory beside them.
-pub(crate) fn strided(reader: &mut impl io::Read, kind: (Scalar, bool), stride: u64, count: u64) -> Read<Vec<f64>> {
-    Ok(columns(reader, kind, stride, count, &[0])?.pop().unwrap_or_default())
+pub(crate) fn strided(
+    reader: &mut impl io::Read,
+    scalar: Scalar,
+    big: bool,
+    stride: u64,
+    count: u64,
+) -> Read<Vec<f64>> {
+    Ok(columns(reader, scalar, big, stride, count, &[0])?.pop().unwrap_or_default())
 }
 
 /// Columns of `count` rows that are `stride` numbers long, from where the reader stands: those that lie so many numbers into
 /// a row, in ascending order.
 pub(crate) fn columns(
     reader: &mut impl io::Read,
-    (scalar, big): (Scalar, bool),
+    scalar: Scalar,
+    big: bool,
     stride: u64,
     count: u64,
     wanted: &[u64],

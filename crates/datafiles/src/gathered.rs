@@ -42,7 +42,7 @@ pub(crate) fn one_channel_each(mut contents: Contents, source: Box<dyn Source>) 
             && let Some(names) = names(&sets)
             && same_times(&sets, &own, &places, &*source)?
         {
-            gather(&mut contents.sets, &mut places, &own, (parent, names));
+            gather(&mut contents.sets, &mut places, &own, parent, names);
         }
     }
     Ok((contents, Box::new(Gathered { below: source, places })))
@@ -235,7 +235,7 @@ fn begins_with(a: &Channel, b: &Channel) -> bool {
 }
 
 /// Puts the channels of the sets `own` into the first of them, which is called `name`.
-fn gather(sets: &mut Vec<Set>, places: &mut Vec<Vec<Place>>, own: &[usize], (name, names): (String, Vec<String>)) {
+fn gather(sets: &mut Vec<Set>, places: &mut Vec<Vec<Place>>, own: &[usize], name: String, names: Vec<String>) {
     let into = own[0];
     let (mut channels, mut found, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for (k, (&s, channel_name)) in own.iter().zip(names).enumerate() {

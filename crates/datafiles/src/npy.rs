@@ -235,7 +235,7 @@ impl Npy {
             return Ok(None);
         }
         file.seek_relative((first * numbers.size()) as i64)?;
-        let read = columns(&mut file, (numbers.scalar, numbers.big), cut.stride, cut.count, &places)?;
+        let read = columns(&mut file, numbers.scalar, numbers.big, cut.stride, cut.count, &places)?;
         Ok(Some(read.into_iter().map(Flat::real).collect()))
     }
 }

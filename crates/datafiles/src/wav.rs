@@ -88,7 +88,7 @@ fn plain(reader: WavReader<BufReader<File>>, tracks: &[usize]) -> Option<Read<Ve
     };
     let (count, wanted) = (u64::from(reader.duration()), tracks.iter().map(|&track| track as u64).collect::<Vec<_>>());
     // The reader stands at the first sample.
-    let read = columns(&mut reader.into_inner(), (scalar, false), u64::from(spec.channels), count, &wanted);
+    let read = columns(&mut reader.into_inner(), scalar, false, u64::from(spec.channels), count, &wanted);
     let shares = |mut values: Vec<f64>| {
         values.iter_mut().for_each(|value| *value /= full);
         Values::Real(values)

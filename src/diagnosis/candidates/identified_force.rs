@@ -30,7 +30,7 @@ const SAMPLES: usize = 128;
 const ENOUGH: f64 = 3.0;
 /// Multiple of what the best law of two parameters leaves up to which the best shape of a law of more may still become the
 /// best once its parameters are fitted.
-const PROMISING: f64 = 10.0;
+const PRESELECTED: f64 = 10.0;
 /// Gain of the misfit, in units of what is left per datum, below which a regression has arrived: it orders candidates that are
 /// refined if within dozens of such units, and is where their fit on the response starts.
 const ENOUGH_FOR_A_START: f64 = 1.0;
@@ -93,7 +93,8 @@ impl PlaceData {
         spot: &Spot,
         forces: &[Vec<FreeForce>],
         fields: &Fields,
-        (impedances, static_compliance): (Vec<f64>, f64),
+        impedances: Vec<f64>,
+        static_compliance: f64,
         freedom: Option<ForceFreedom>,
     ) -> Self {
         let harmonics = data.runs.iter().map(|run| run.harmonics).max().unwrap_or(0);
@@ -151,18 +152,18 @@ impl PlaceData {
         let count = self.count() as f64;
         let noise = count + ENOUGH * (2.0 * count).sqrt();
         let least = fits.iter().map(|fit| fit.misfit).fold(f64::INFINITY, f64::min);
-        let bound = PROMISING * least;
+        let bound = PRESELECTED * least;
         let contained = |effect: Effect| fits.iter().any(|f| effect.contains(f.source.effect) && f.misfit < bound);
         let many = Effect::ALL.into_iter().filter(|effect| !is_simple(*effect));
-        let promising: Vec<Effect> = many.filter(|&effect| least >= noise && contained(effect)).collect();
-        if promising.is_empty() {
+        let preselected: Vec<Effect> = many.filter(|&effect| least >= noise && contained(effect)).collect();
+        if preselected.is_empty() {
             return fits;
         }
         let subsample = self.subsample();
         let on = subsample.as_ref().unwrap_or(self);
         let bound = bound * on.count() as f64 / self.count().max(1) as f64;
         let fit = |effect| on.fit_within(effect, bound, on).map(|fit| self.on_all_runs(fit));
-        fits.extend(promising.into_iter().filter_map(fit));
+        fits.extend(preselected.into_iter().filter_map(fit));
         fits
     }
 

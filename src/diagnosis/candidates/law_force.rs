@@ -44,7 +44,7 @@ impl PlaceData {
         if law.description().odd || self.static_compliance == 0.0 {
             return self.at_motion(law, p, motion, order);
         }
-        let motion = about_its_mean(law, p, motion, (&self.sampling, self.static_compliance));
+        let motion = about_its_mean(law, p, motion, &self.sampling, self.static_compliance);
         self.at_motion(law, p, &motion, order)
     }
 
@@ -124,7 +124,7 @@ impl PlaceData {
 
 /// `motion` about the mean `D_0 = -C_0 F_0(D_0)` that a structure of static compliance `C_0` (m/N) takes under the mean force of the
 /// law.
-fn about_its_mean(law: &dyn Law, p: &[f64], motion: &Motion, (sampling, compliance): (&Sampling, f64)) -> Motion {
+fn about_its_mean(law: &dyn Law, p: &[f64], motion: &Motion, sampling: &Sampling, compliance: f64) -> Motion {
     let mut motion = motion.clone();
     let mut samples = vec![0.0; motion.len()];
     let mut rest = |motion: &mut Motion, mean: f64| {
@@ -159,7 +159,7 @@ mod tests {
         let Some(law) = Effect::QuadraticStiffness.law() else { panic!("a law") };
         let sampling = Sampling::new(64);
         let motion = sampling.motion(80.0, 0.0, &[c64::new(0.0, a)]);
-        let found = about_its_mean(law, &[k], &motion, (&sampling, compliance));
+        let found = about_its_mean(law, &[k], &motion, &sampling, compliance);
         let share = compliance * k;
         let exact = ((1.0 - 2.0 * (share * a).powi(2)).sqrt() - 1.0) / (2.0 * share);
         assert!((found.mean / exact - 1.0).abs() < 1e-5, "{} {exact}", found.mean);

@@ -21,7 +21,7 @@ const WITHIN: f64 = 0.3;
 /// Share of the modes that must show it, and how many where there are several.
 const SHARE: f64 = 0.6;
 const MODES: usize = 2;
-/// Runs at different frequencies from which on one mode alone is believed.
+/// Runs at different frequencies from which on one mode alone is accepted.
 const ALONE: usize = 3;
 /// Largest relative error of its mass by the factor of the misreading then. A strong nonlinear spring or friction next to a mode changes
 /// the slope too, by any factor, where masses of models are right to some per cent.
@@ -54,14 +54,14 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
     // A hammer that roves is one channel, whatever the places it is named by.
     let one_force =
         forces.len() == 1 || cells.iter().filter_map(|cell| cell.nearest.as_ref()).all(|n| n.alone.is_some());
-    let (names, factor) = named(channels, (forces, one_force), sign, middle)?;
+    let (names, factor) = named(channels, forces, one_force, sign, middle)?;
     let mended = if names[0].starts_with("force@") { factor } else { 1.0 / factor };
     let error = |by: f64| {
         let relative_error = |mass: f64| (mass / by - 1.0).abs() / (mass / by).abs().max(1.0);
         median(&masses.iter().map(|(mass, _)| relative_error(*mass)).collect::<Vec<f64>>())
     };
     let (error_before, error_after) = (error(1.0), error(mended));
-    if !is_believed(masses.len(), error_after) {
+    if !is_accepted(masses.len(), error_after) {
         return None;
     }
     Some(ChannelFault {
@@ -75,7 +75,7 @@ pub(super) fn common(channels: &[String], forces: &[String], cells: &[Cells]) ->
 }
 
 /// Whether so many modes say a factor that leaves an error of their masses.
-fn is_believed(modes: usize, error_after: f64) -> bool {
+fn is_accepted(modes: usize, error_after: f64) -> bool {
     modes >= MODES || error_after <= ALONE_WITHIN
 }
 
@@ -84,7 +84,8 @@ fn is_believed(modes: usize, error_after: f64) -> bool {
 /// g, which all accelerometers of a system share and forces in kgf hardly have.
 fn named(
     channels: &[String],
-    (forces, one_force): (&[String], bool),
+    forces: &[String],
+    one_force: bool,
     sign: f64,
     middle: f64,
 ) -> Option<(Vec<String>, f64)> {
@@ -171,7 +172,7 @@ mod tests {
     /// A Bouc-Wen joint under an isolated building showed a mass of 2.56, which is no 3.28 of feet.
     #[test]
     fn one_mode_alone_must_fit_its_factor() {
-        assert!(is_believed(1, 0.03) && !is_believed(1, 0.22) && is_believed(2, 0.22));
+        assert!(is_accepted(1, 0.03) && !is_accepted(1, 0.22) && is_accepted(2, 0.22));
     }
 
     #[test]
@@ -179,15 +180,15 @@ mod tests {
         let names = |list: &[&str]| list.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let (motions, force) = (names(&["acc@3", "acc@5"]), names(&["force@5"]));
         let g = 9.806_65_f64;
-        assert_eq!(named(&motions, (&force, true), 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
-        assert_eq!(named(&motions, (&force, true), -1.0, 0.02), Some((force.clone(), -1.0)));
-        assert_eq!(named(&motions, (&force, true), 1.0, 0.02), None);
-        assert_eq!(named(&motions, (&force, true), 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force.clone()));
-        assert_eq!(named(&motions, (&[], true), 1.0, 2.0_f64.ln()), None);
+        assert_eq!(named(&motions, &force, true, 1.0, g.ln()), Some((motions.clone(), 1.0 / g)));
+        assert_eq!(named(&motions, &force, true, -1.0, 0.02), Some((force.clone(), -1.0)));
+        assert_eq!(named(&motions, &force, true, 1.0, 0.02), None);
+        assert_eq!(named(&motions, &force, true, 1.0, 4.448_f64.ln()).map(|found| found.0), Some(force.clone()));
+        assert_eq!(named(&motions, &[], true, 1.0, 2.0_f64.ln()), None);
         // A thousandth may be that of either: of one force rather than of all sensors, but not of several forces.
-        let of_either = |one_force| named(&motions, (&force, one_force), 1.0, 1e3_f64.ln()).map(|found| found.0);
+        let of_either = |one_force| named(&motions, &force, one_force, 1.0, 1e3_f64.ln()).map(|found| found.0);
         assert_eq!(of_either(true), Some(force.clone()));
         assert_eq!(of_either(false), Some(motions.clone()));
-        assert_eq!(named(&motions, (&force, false), -1.0, 0.02).map(|found| found.0), Some(motions.clone()));
+        assert_eq!(named(&motions, &force, false, -1.0, 0.02).map(|found| found.0), Some(motions.clone()));
     }
 }

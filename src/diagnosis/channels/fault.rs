@@ -1,6 +1,7 @@
 //! What can be wrong with a channel, in words.
 
 use crate::effects::{Kind, Source};
+use crate::math::numerals::compact;
 use crate::measurement::Quantity;
 use crate::measurement::channel::{POUND_FORCE, STANDARD_GRAVITY};
 
@@ -62,12 +63,12 @@ impl ChannelFault {
             Fault::Unreliable(scatter) => {
                 format!(
                     "{name} does not fit the other channels by {} % from run to run: loose?",
-                    three_digits(100.0 * scatter)
+                    compact(100.0 * scatter, 3)
                 )
             }
             Fault::Common(factor) => common_words(&self.channels, factor),
             Fault::Late(delay) => {
-                let size = three_digits(1e3 * delay.abs());
+                let size = compact(1e3 * delay.abs(), 3);
                 if delay < 0.0 {
                     format!("{name} is recorded {size} ms early")
                 } else {
@@ -82,14 +83,14 @@ impl ChannelFault {
                 let size = factor.abs();
                 let (times, which) = if size > 1.0 { (size, "large") } else { (1.0 / size, "small") };
                 let why = reason(name, size).map_or_else(String::new, |why| format!(": {why}?"));
-                format!("{name}{reads} {} times too {which}{why}", three_digits(times))
+                format!("{name}{reads} {} times too {which}{why}", compact(times, 3))
             }
         }
     }
 
     /// Why, in a sentence with numbers.
     pub fn evidence(&self) -> String {
-        let percent = |x: f64| three_digits(100.0 * x);
+        let percent = |x: f64| compact(100.0 * x, 3);
         if let Fault::Unreliable(_) = self.fault {
             return "it is kept with that as its deviation; look at its mounting, its cable and its timing".to_owned();
         }
@@ -138,7 +139,7 @@ fn common_words(channels: &[String], factor: f64) -> String {
     let turned = if factor < 0.0 { format!(" {look} reversed and") } else { String::new() };
     let (times, which) = if size > 1.0 { (size, "large") } else { (1.0 / size, "small") };
     let why = reason(name, size).map_or_else(String::new, |why| format!(": {why}?"));
-    format!("{who}{turned} {read} {} times too {which}{why}", three_digits(times))
+    format!("{who}{turned} {read} {} times too {which}{why}", compact(times, 3))
 }
 
 /// A factor by which channels are misread, and by what.
@@ -238,16 +239,6 @@ fn reason(name: &str, size: f64) -> Option<String> {
         |m: &&Misreading| m.quantity.is_some() && m.quantity == quantity && (m.factor / size).ln().abs() < ALIKE;
     let unit = all.iter().filter(|_| found.quantity.is_none()).find(alike);
     Some(unit.map_or_else(|| found.why.to_owned(), |unit| format!("{}, or {}", found.why, unit.why)))
-}
-
-/// A positive number with three significant digits.
-fn three_digits(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let digits = (2 - value.abs().log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// Whether an effect is a factor on a channel that measuring chains have.

@@ -36,7 +36,7 @@ pub(crate) fn find_in_time(structure: &Structure, runs: &[TransientRun]) -> Vec<
     }
     let named = |list: &[Channel]| list.iter().map(|c| (c.to_string(), c.dof)).unzip::<String, usize, Vec<_>, Vec<_>>();
     let ((names, dofs), forces) = (named(&responses), named(&forces));
-    let mut search = Search::new(structure, &modes, (names, dofs), cells);
+    let mut search = Search::new(structure, &modes, names, dofs, cells);
     search.knows_any_gain();
     search.all_faults(&forces.0, &forces.1)
 }

@@ -17,7 +17,7 @@ use crate::math::statistics::mean;
 use crate::structure::Structure;
 use crate::structure::modes::Modes;
 
-/// Error of a place from which on another is looked for, and up to which the other is believed, relative.
+/// Error of a place from which on another is looked for, and up to which the other is accepted, relative.
 const MISPLACED: f64 = 0.3;
 const FITS: f64 = 0.15;
 /// The error at the other place over that at the one that is said.

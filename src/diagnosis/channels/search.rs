@@ -43,7 +43,7 @@ pub(crate) fn find(predictor: &Predictor, data: &Data, predictions: &[RunPredict
     let all = || data.runs.iter().flat_map(|run| &run.forces);
     let driven: Vec<usize> =
         forces.iter().map(|name| all().find(|force| force.name == *name).map_or(0, |force| force.dof)).collect();
-    Search::new(predictor.structure(), &modes, (names, dofs), cells).all_faults(forces, &driven)
+    Search::new(predictor.structure(), &modes, names, dofs, cells).all_faults(forces, &driven)
 }
 
 /// The DOF at which the only force of all runs fits the motion best, where it fits it well.
@@ -106,7 +106,8 @@ impl<'a> Search<'a> {
     pub(super) fn new(
         structure: &'a Structure,
         modes: &'a Modes,
-        (names, dofs): (Vec<String>, Vec<usize>),
+        names: Vec<String>,
+        dofs: Vec<usize>,
         cells: Vec<Cells>,
     ) -> Self {
         Self { structure, modes, names, dofs, cells, faults: Vec::new(), any_gain: false }
@@ -175,7 +176,7 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// The hypothesis that leaves least, of those that are believed.
+    /// The hypothesis that leaves least, of those that are accepted.
     fn best(&self, hypotheses: &[Hypothesis], before: &Errors) -> Option<(Hypothesis, ChannelFault)> {
         let judged = hypotheses.iter().filter_map(|hypothesis| {
             let after = self.errors(Some(hypothesis));

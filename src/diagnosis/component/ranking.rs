@@ -7,7 +7,7 @@
 //!
 //! The first term is minus twice the logarithm of the density of the left-out records with their common variance put at its best (Stone
 //! 1977, Journal of the Royal Statistical Society B 39, 44), the second puts laws of more parameters behind those that predict as well,
-//! as the information criterion does. Fits that promise too little to be left out and predicted follow those of as many laws.
+//! as the information criterion does. Fits of too little evidence to be left out and predicted follow those of as many laws.
 
 use super::fit::{Fitted, Ranked, error, freedom, improved};
 use super::search::{Search, parameters};
@@ -92,7 +92,7 @@ fn predicts(ranked: &Ranked) -> f64 {
     ranked.held_out.unwrap_or(f64::INFINITY)
 }
 
-/// What predicts best of fits of as many laws; a rival of less evidence has to predict clearly better, or nearly as well with fewer
+/// What predicts best of fits of as many laws; another of less evidence has to predict clearly better, or nearly as well with fewer
 /// parameters.
 fn plainest(list: &[Ranked]) -> Option<&Ranked> {
     let mut found: Option<&Ranked> = None;

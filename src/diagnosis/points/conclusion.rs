@@ -30,7 +30,7 @@ pub(super) fn conclude(balance: &Balance, by_size: &[Vec<Fitted>]) -> Diagnosis 
                 diagnosis.verdict = Verdict::Detuned;
             } else {
                 diagnosis.steps.extend(by_size.iter().map(|fitted_sets| step(balance, &fitted_sets[0])));
-                suggest(&mut diagnosis, balance, (first, top));
+                suggest(&mut diagnosis, balance, first, top);
             }
         }
         _ => without_effects(&mut diagnosis, balance),
@@ -103,11 +103,11 @@ fn without_effects(diagnosis: &mut Diagnosis, balance: &Balance) {
 }
 
 /// The effects of the best sets with their probabilities, and the verdict.
-fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, (first, top): (&[Fitted], &[Fitted])) {
+fn suggest(diagnosis: &mut Diagnosis, balance: &Balance, first: &[Fitted], top: &[Fitted]) {
     let n = balance.missing.len();
     // What even the best leaves beyond the noise is no noise that could tell the others apart.
     let scale = (top[0].chi_square / n.saturating_sub(top[0].parameters).max(1) as f64).max(1.0);
-    let weights = evidence_weights(&top.iter().map(|f| beside(f, &top[0], (n, scale))).collect::<Vec<_>>());
+    let weights = evidence_weights(&top.iter().map(|f| beside(f, &top[0], n, scale)).collect::<Vec<_>>());
     let trust = if top[0].chi_square > TOLERATED * n as f64 { UNTRUSTED } else { 1.0 };
     for (fit, added) in top.iter().flat_map(|fit| fit.added.iter().map(move |added| (fit, added))) {
         let listed = diagnosis.suggestions.iter().any(|s| s.added.source.is_same(&added.source));

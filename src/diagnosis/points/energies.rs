@@ -49,22 +49,24 @@ pub(crate) fn energies(problem: &Problem, effects: &[Source]) -> Result<Vec<Poin
     let nothing = |index| PointsEnergy { index, input: 0.0, taken: 0.0, deviation: 0.0 };
     let of_run = |run: &RunData| {
         let motion = motion(problem.structure, &problem.runs[run.index]);
-        motion.map_or(nothing(run.index), |motion| at_motion(problem.structure, run.index, &motion, &sources))
+        motion.map_or(nothing(run.index), |(m, x)| at_motion(problem.structure, run.index, &m, &x, &sources))
     };
     Ok(data.runs.iter().map(of_run).collect())
 }
 
 /// The energies of run `index` by the measured motion alone, of any structure; none where a DOF has no sensor.
 pub(crate) fn where_all_is_measured(problem: &Problem, index: usize, sources: &[Source]) -> Option<PointsEnergy> {
-    let motion = motion(problem.structure, &problem.runs[index]).filter(|(_, x)| x.known.iter().all(|known| *known))?;
-    Some(at_motion(problem.structure, index, &motion, sources))
+    let (measured, expanded) = motion(problem.structure, &problem.runs[index])?;
+    let all = expanded.known.iter().all(|known| *known);
+    all.then(|| at_motion(problem.structure, index, &measured, &expanded, sources))
 }
 
 /// The energies of run `index`; nothing is put in where no sensor sees the drive point.
 fn at_motion(
     structure: &Structure,
     index: usize,
-    (measured, expanded): &(Measured, Expanded),
+    measured: &Measured,
+    expanded: &Expanded,
     sources: &[Source],
 ) -> PointsEnergy {
     let input = input_energy(structure, measured, expanded).unwrap_or(0.0);

@@ -28,7 +28,7 @@ fn extra(fit: &Fitted) -> f64 {
 /// Evidence of a fit beside the best one, of which `scale` of the squared residual is noise: that a law has more parameters counts
 /// against it where it contains the best one, which then is a case of it; of two laws neither of which contains the other none is the
 /// likelier for its number of parameters.
-pub(super) fn beside(fit: &Fitted, best: &Fitted, (n, scale): (usize, f64)) -> f64 {
+pub(super) fn beside(fit: &Fitted, best: &Fitted, n: usize, scale: f64) -> f64 {
     let contains = |a: &Source, b: &Source| a.effect.contains(b.effect) && a.place.is_same(&b.place);
     let contained = |a: &Source| best.added.iter().any(|b| a.is_same(&b.source) || contains(a, &b.source));
     let own = if fit.added.iter().all(|a| contained(&a.source)) { 0.0 } else { extra(fit) };
@@ -53,11 +53,11 @@ mod tests {
         let best = fit(Effect::Viscous, &[3.0], 20.0);
         let plain = |f: &Fitted| bayesian_information(f.chi_square, f.parameters, 20);
         let maxwell = fit(Effect::Maxwell, &[1e4, 3.0], 20.0);
-        assert!((beside(&maxwell, &best, (20, 1.0)) - plain(&maxwell) - EXTRA).abs() < 1e-9);
+        assert!((beside(&maxwell, &best, 20, 1.0) - plain(&maxwell) - EXTRA).abs() < 1e-9);
         let hysteretic = fit(Effect::Hysteretic, &[3.0], 20.0);
-        assert!((beside(&maxwell, &hysteretic, (20, 1.0)) - plain(&maxwell)).abs() < 1e-9);
+        assert!((beside(&maxwell, &hysteretic, 20, 1.0) - plain(&maxwell)).abs() < 1e-9);
         // What even the best leaves beyond the noise counts as less.
-        let own = beside(&best, &best, (20, 2.0));
+        let own = beside(&best, &best, 20, 2.0);
         assert!((plain(&best) - own - 10.0).abs() < 1e-9);
     }
 }

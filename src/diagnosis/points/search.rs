@@ -22,7 +22,7 @@ use std::sync::OnceLock;
 /// Sets that are fitted in all their parameters, at each number of effects.
 const FITS: usize = 12;
 /// Sets whose score is this many times that of the best are not fitted.
-const HOPELESS: f64 = 3.0;
+const SCORE_RATIO: f64 = 3.0;
 /// Sets that are fitted even where time is up.
 const LEAST: usize = 2;
 /// Evidence that an effect must bring.
@@ -86,7 +86,7 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
         }
         let multiples = Multiples::TRIED[k];
         let balance = Balance::new(problem, &[])?.with_uncertainty(multiples);
-        let by_size = climb(&balance, &shapes, excluded, control)?;
+        let by_size = forward_selection(&balance, &shapes, excluded, control)?;
         Ok(Some(Ended { multiples, without: sum_of_squares(&balance.weighted()), cost: balance.cost(), by_size }))
     };
     let ended = control.map(Multiples::TRIED.len(), search_with).into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -99,7 +99,8 @@ pub(crate) fn diagnose(problem: &Problem, excluded: &[Source], control: &Control
     let effects: Vec<Source> =
         by_size.last().map(|r| r[0].added.iter().map(|a| a.source.clone()).collect()).unwrap_or_default();
     let balance = Balance::new(problem, &effects)?.with_uncertainty(best.multiples);
-    let mut with_noise = if effects.is_empty() { Vec::new() } else { climb(&balance, &shapes, excluded, control)? };
+    let mut with_noise =
+        if effects.is_empty() { Vec::new() } else { forward_selection(&balance, &shapes, excluded, control)? };
     with_noise.truncate(size);
     Ok(conclude(&balance, &with_noise))
 }
@@ -125,7 +126,7 @@ fn decided(ended: &[Ended], n: usize) -> Option<(&Ended, usize)> {
     Some((chosen, size))
 }
 
-fn climb(
+fn forward_selection(
     balance: &Balance,
     shapes: &OnceLock<Vec<(Source, Vec<f64>)>>,
     excluded: &[Source],
@@ -165,7 +166,7 @@ fn climb(
 
 /// Score beyond which sets are not fitted where the best has the score `best`: their shapes are those of a grid.
 fn score_bound(best: f64) -> f64 {
-    HOPELESS * best.abs() + 60.0
+    SCORE_RATIO * best.abs() + 60.0
 }
 
 /// The best sets so far, each with one error of a channel more.

@@ -5,8 +5,8 @@ use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::candidate_order::is_open;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{EVIDENCE, FittedSets, Found, agrees, cost, distinct, nearly};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search_result::{EVIDENCE, FittedSets, SearchResult, agrees, cost, distinct, nearly};
 use crate::diagnosis::selection::updated::REFITTED;
 use crate::diagnosis::selection::weighing::{Weighed, weighed};
 use crate::effects::Source;
@@ -42,7 +42,7 @@ pub(super) fn without_addition<'a>(
 }
 
 /// Drops effects that the last set of a search no longer needs, now that the others are there.
-pub(super) fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
+pub(super) fn pruned(reference: &ReferenceModel, found: &mut SearchResult) -> Result<(), DiagnosisError> {
     while let Some(best) =
         found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone()).filter(|r| r.effects.len() > 1)
     {
@@ -70,7 +70,7 @@ pub(super) fn pruned(reference: &ReferenceModel, found: &mut Found) -> Result<()
 /// those beside fewer may have ended in another local minimum.
 pub(super) fn without_needless_effects<'a>(
     reference: ReferenceModel<'a>,
-    found: &mut Found,
+    found: &mut SearchResult,
 ) -> Result<ReferenceModel<'a>, DiagnosisError> {
     let mut reference = reference;
     while let Some(fewer) = found.by_size.last().map(|sets| fewer(&reference, sets)).transpose()?.flatten() {
@@ -130,7 +130,7 @@ mod tests {
             open.iter().for_each(|&k| fit.deviations[k].fill(f64::NAN));
             let noise = reference.noise.clone();
             let sets = FittedSets { fits: vec![fit], scale: 1.0, noise, probabilities: vec![1.0] };
-            let mut found = Found {
+            let mut found = SearchResult {
                 updated: true,
                 by_size: vec![sets],
                 agrees: false,

@@ -3,16 +3,16 @@
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_needless_effects};
+use crate::diagnosis::selection::competing_model::{CHOSEN, CompetingModel, FURTHER, RAISED};
 use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, Found, MOST_EFFECTS, agrees, explains_by_scatter};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::rival::{CHOSEN, FURTHER, RAISED, Rival};
+use crate::diagnosis::selection::search_result::{DOUBTFUL, MOST_EFFECTS, SearchResult, agrees, explains_by_scatter};
 use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 
-/// Evidence that a single change must promise to be refined.
-const PROMISED: f64 = 4.0;
+/// Evidence that a single change is to bring as it is estimated, to be refined.
+const CHANGE: f64 = 4.0;
 
 /// The search with the updating parameters free: at each stage the candidates seen from the model as it was updated last,
 /// then the model updated beside the best of them, and the candidates again.
@@ -21,11 +21,11 @@ pub(super) fn beside_updating(
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
     let bare = reference.bare()?;
-    match first_candidates((&reference, before), &bare)? {
-        First::Fits(here, fits, corrected) => selected((&reference, &bare), before, (here, fits), corrected).map(Ok),
+    match first_candidates(&reference, before, &bare)? {
+        First::Fits(here, fits, corrected) => selected(&reference, &bare, before, here, fits, corrected).map(Ok),
         First::None(likely) => {
             let agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
-            let found = Found { agrees, ..Found::beside(&bare, before) };
+            let found = SearchResult { agrees, ..SearchResult::beside(&bare, before) };
             Ok(Ok(Outcome { reference: likely, found }))
         }
         First::Unreliable(fault) => Ok(Err(fault)),
@@ -34,14 +34,16 @@ pub(super) fn beside_updating(
 
 /// The search with the updating parameters free from the candidates `first` on, beside corrections, which leave what `bare` does.
 pub(super) fn selected<'a>(
-    (reference, bare): (&ReferenceModel<'a>, &ReferenceModel<'a>),
+    reference: &ReferenceModel<'a>,
+    bare: &ReferenceModel<'a>,
     before: f64,
-    (mut here, first): (ReferenceModel<'a>, Vec<(ReferenceModel<'a>, FittedModel)>),
+    mut here: ReferenceModel<'a>,
+    first: Vec<(ReferenceModel<'a>, FittedModel)>,
     corrected: Option<(ReferenceModel<'a>, f64)>,
 ) -> Result<Outcome<'a>, DiagnosisError> {
     let stated = reference.estimator().error(&reference.predictions, &[]);
-    let mut found = Found::beside(bare, before);
-    let (mut first, mut rival) = (Some(first), Rival::new(bare, stated, corrected));
+    let mut found = SearchResult::beside(bare, before);
+    let (mut first, mut competing) = (Some(first), CompetingModel::new(bare, stated, corrected));
     while found.by_size.len() < MOST_EFFECTS && (found.by_size.is_empty() || !here.control.is_late()) {
         let from = found.by_size.last().map(|fitted_sets| fitted_sets.fits[0].clone());
         let fits = match (&from, first.take()) {
@@ -57,12 +59,12 @@ pub(super) fn selected<'a>(
             break;
         }
         if let Some(from) = &from
-            && let Some(better) = without_addition(&fits, from, rival.least())?
+            && let Some(better) = without_addition(&fits, from, competing.least())?
         {
             found.by_size.pop();
             let (likely, least) = better.taken_into(&mut found);
             here = likely.with_scales(likely.linearisation.updating.scales);
-            rival.is_now(likely, least);
+            competing.replace(likely, least);
             continue;
         }
         let most = from.as_ref().map_or(f64::INFINITY, |from| RAISED * from.error);
@@ -72,23 +74,23 @@ pub(super) fn selected<'a>(
         {
             weighed = two;
         }
-        if !rival.is_beaten_by(&weighed, from.as_ref())? {
+        if !competing.is_beaten_by(&weighed, from.as_ref())? {
             break;
         }
         if from.is_none() {
-            let odds = rival.odds_of_change(&weighed);
+            let odds = competing.odds_of_change(&weighed);
             weighed.probabilities.iter_mut().for_each(|p| *p *= odds);
         }
         let (likely, least) = weighed.taken_into(&mut found);
         here = likely.clone();
         // Corrections beyond what models are wrong by may stand in for one effect more.
         let enough = found.agrees && is_likely(&likely);
-        rival.is_now(likely, least);
+        competing.replace(likely, least);
         if enough {
             break;
         }
     }
-    let likely = rival.into_model()?;
+    let likely = competing.into_model()?;
     if found.by_size.is_empty() {
         found.agrees = agrees(&likely, likely.misfit() * likely.count() as f64, 0);
     }
@@ -110,25 +112,26 @@ enum First<'a> {
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its
 /// evidence beside them, none is refined but what one change explains instead of them.
 fn first_candidates<'a>(
-    (reference, before): (&ReferenceModel<'a>, f64),
+    reference: &ReferenceModel<'a>,
+    before: f64,
     bare: &ReferenceModel<'a>,
 ) -> Result<First<'a>, DiagnosisError> {
-    let changes = if bare.misfit() < TOLERATED { bare.single_changes(PROMISED)? } else { Vec::new() };
-    let (mut promises, mut corrected) = (bare.misfit() >= DOUBTFUL || bare.promises(CHOSEN)?, None);
-    if !promises {
+    let changes = if bare.misfit() < TOLERATED { bare.single_changes(CHANGE)? } else { Vec::new() };
+    let (mut expected, mut corrected) = (bare.misfit() >= DOUBTFUL || bare.is_law_expected(CHOSEN)?, None);
+    if !expected {
         // What differs from run to run may be more than tests usually differ by.
         let likely = bare.likely(f64::INFINITY)?;
-        promises = likely.0.is_scatter()?;
-        if !promises && changes.is_empty() {
-            if !likely.0.promises(CHOSEN)? {
+        expected = likely.0.is_scatter()?;
+        if !expected && changes.is_empty() {
+            if !likely.0.is_law_expected(CHOSEN)? {
                 return Ok(First::None(likely.0));
             }
-            promises = true;
+            expected = true;
         }
         corrected = Some(likely);
     }
     let (mut here, mut fits) = (bare.with_scales(bare.linearisation.updating.scales), Vec::new());
-    if promises {
+    if expected {
         let (localised, unfitted) = match reference.localised()? {
             Ok(localised) => localised,
             Err(fault) => return Ok(First::Unreliable(fault)),
@@ -147,7 +150,7 @@ impl ReferenceModel<'_> {
     /// Whether this model, corrected and without any effect, explains the runs by what is free from run to run alone.
     fn is_scatter(&self) -> Result<bool, DiagnosisError> {
         let errors = [self.error_of_structure(&[], &Vec::new())?, self.floor()];
-        self.leaves(explains_by_scatter, errors, (&[], &Vec::new()))
+        self.leaves(explains_by_scatter, errors, &[], &Vec::new())
     }
 
     pub(super) fn floor(&self) -> f64 {

@@ -66,7 +66,7 @@ fn nearer(left: f64, errors: &[f64]) -> Option<usize> {
 fn probabilities_of(all: &[Candidate], unit: f64) -> Vec<f64> {
     let in_units = |c: &Candidate| c.densities.iter().map(|density| density / unit).collect();
     let densities: Vec<Vec<f64>> = all.iter().map(in_units).collect();
-    let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::posing(&c.fit);
+    let prior = |c: &Candidate| c.fit.descent.log_volume() - 0.5 * ReferenceModel::cost_beside_simpler(&c.fit);
     let mut list = probabilities(&densities, &all.iter().map(prior).collect::<Vec<f64>>());
     let Some(first) = all.first() else { return list };
     let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>();

@@ -5,9 +5,11 @@ use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::result::{Added, Diagnosis, Step, Suggestion, Verdict};
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{FittedSets, Found, explains_by_scatter, leaves_much, same_set};
 use crate::diagnosis::selection::next_test::{next_test, pinning_test};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search_result::{
+    FittedSets, SearchResult, explains_by_scatter, leaves_much, same_set,
+};
 use crate::diagnosis::selection::sentences::sentences;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -19,7 +21,7 @@ use crate::math::statistics::sum_of_squares;
 /// Difference of the scaled squared residual within which two suggestions cannot be told apart.
 const ALIKE: f64 = 9.0;
 /// Probability from which on the next best set is worth a test of its own.
-const RIVAL: f64 = 1e-3;
+const WORTH_A_TEST: f64 = 1e-3;
 /// Squared residual per datum that a model may leave which is only detuned.
 pub(crate) const TOLERATED: f64 = 4.0;
 /// What the probability of a law is multiplied by where it leaves more than that: of the laboratory projects of the
@@ -32,8 +34,8 @@ pub(crate) const UNTRUSTED: f64 = 0.35;
 const TAKEN: f64 = 5e-3;
 /// Squared residual per datum from which on no law of the library gives what is missing.
 pub(super) const UNEXPLAINED: f64 = 100.0;
-/// Share of an error within which it is that which was promised.
-const PROMISED: f64 = 0.01;
+/// Share of an error within which another is the same.
+const SAME_ERROR: f64 = 0.01;
 /// Most suggestions.
 const MOST: usize = 8;
 /// The same where time is up.
@@ -46,7 +48,7 @@ const MOST_LEFT: f64 = 0.5;
 /// Where a search ended, with what it was made on.
 pub(crate) struct Outcome<'a> {
     pub reference: ReferenceModel<'a>,
-    pub found: Found,
+    pub found: SearchResult,
 }
 
 impl Outcome<'_> {
@@ -62,12 +64,13 @@ impl Outcome<'_> {
         let predictions = quiet.estimator().predict(&best.effects, &FINAL, &best.starts)?;
         diagnosis.noise_floor = quiet.noise_floor(&best.effects, &predictions);
         diagnosis.corrections = corrections(&quiet);
-        let promised = self.promised(&quiet, best)?;
-        let best = promised.as_ref().unwrap_or(best);
+        let told = self.as_told(&quiet, best)?;
+        let best = told.as_ref().unwrap_or(best);
         let misfit = best.chi_square / reference.count().max(1) as f64;
-        let (errors, set) = ([best.error, diagnosis.noise_floor], (&best.effects[..], &best.starts));
-        let scattered = self.found.updated && quiet.leaves(explains_by_scatter, errors, set)?;
-        let doubtful = !quiet.linearisation.updating.is_believable() || quiet.leaves(leaves_much, errors, set)?;
+        let errors = [best.error, diagnosis.noise_floor];
+        let leaves = |judged: fn(f64, f64) -> bool| quiet.leaves(judged, errors, &best.effects, &best.starts);
+        let scattered = self.found.updated && leaves(explains_by_scatter)?;
+        let doubtful = !quiet.linearisation.updating.is_plausible() || leaves(leaves_much)?;
         let left = misfit > UNEXPLAINED || (misfit > TOLERATED && misfit > TAKEN * self.found.without);
         let trust = if left || doubtful { UNTRUSTED } else { 1.0 };
         let weights: Vec<f64> = top.probabilities.iter().map(|p| p * trust).collect();
@@ -104,10 +107,10 @@ impl Outcome<'_> {
         };
         diagnosis.suggestions.sort_by(alternative_then_probability);
         // Nothing is ambiguous where the next best has next to no probability: then the size is what is least certain.
-        let rival = top.fits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > RIVAL));
-        diagnosis.next_test = match rival {
+        let second = top.fits.get(1).filter(|_| weights.get(1).is_some_and(|w| *w > WORTH_A_TEST));
+        diagnosis.next_test = match second {
             _ if quiet.control.is_late() => None,
-            Some(rival) => next_test(&quiet, &best.effects, &rival.effects)?,
+            Some(second) => next_test(&quiet, &best.effects, &second.effects)?,
             None => pinning_test(&quiet, best)?,
         }
         .into_iter()
@@ -124,8 +127,8 @@ impl Outcome<'_> {
     }
 
     /// The best fit with the error of the model as it is told, where that is not the one that it was found with.
-    fn promised(&self, quiet: &ReferenceModel, best: &FittedModel) -> Result<Option<FittedModel>, DiagnosisError> {
-        let is_near = |error: f64| (error - best.error).abs() <= PROMISED * best.error;
+    fn as_told(&self, quiet: &ReferenceModel, best: &FittedModel) -> Result<Option<FittedModel>, DiagnosisError> {
+        let is_near = |error: f64| (error - best.error).abs() <= SAME_ERROR * best.error;
         if !self.found.updated || is_near(quiet.error_of_followed(&best.effects, &best.starts)?) {
             return Ok(None);
         }
@@ -144,12 +147,12 @@ impl Outcome<'_> {
         let helps = !self.found.updated || error < MOST_LEFT * diagnosis.error_before;
         let told = self.found.agrees || (helps && reference.control.is_complete());
         let errors = [error, diagnosis.noise_floor];
-        let scattered = self.found.updated && reference.leaves(explains_by_scatter, errors, (&[], &Vec::new()))?;
+        let scattered = self.found.updated && reference.leaves(explains_by_scatter, errors, &[], &Vec::new())?;
         // Nor corrections of damping that no model needs: they stand in for what is missing.
-        let believable = reference.linearisation.updating.is_believable();
+        let plausible = reference.linearisation.updating.is_plausible();
         // Nor where all motions together are turned against it by what is no scatter of runs.
         diagnosis.common_factors = reference.common_factors(&reference.predictions);
-        let enough = misfit < TOLERATED && told && !scattered && believable && diagnosis.common_factors.is_empty();
+        let enough = misfit < TOLERATED && told && !scattered && plausible && diagnosis.common_factors.is_empty();
         diagnosis.verdict = match (self.found.updated, enough) {
             (true, true) => Verdict::Detuned,
             (false, true) => Verdict::Adequate,

@@ -1,4 +1,4 @@
-//! Fits of sets on the response: all of them a little, the promising ones to the end, the best with all harmonics.
+//! Fits of sets on the response: all of them a little, those that may become the best to the end, the best with all harmonics.
 
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::candidates::start::{UnfittedSet, start};
@@ -6,9 +6,9 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::estimator::{Estimator, Starts};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::same_set;
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
 use crate::diagnosis::selection::search::joined;
+use crate::diagnosis::selection::search_result::same_set;
 use crate::diagnosis::updating::noise_model::NoiseModel;
 use crate::effects::{Effect, Place, Source, State, WholeLaw};
 use std::sync::Arc;
@@ -19,8 +19,8 @@ const POLISHED: usize = 6;
 /// is missing.
 const ROUGHLY: usize = 2;
 const COARSE: f64 = 30.0;
-/// The same from which on no simpler law is heard beside the best.
-const HOPELESSLY_COARSE: f64 = 1e3;
+/// The same from which on no simpler law is fitted beside the best.
+const TOO_COARSE: f64 = 1e3;
 /// Steps of a fit on the response: of all sets, and of those that may still become the best.
 pub(crate) const FIRST_STEPS: usize = 4;
 pub(crate) const STEPS: usize = 20;
@@ -28,10 +28,10 @@ pub(crate) const STEPS: usize = 20;
 const LEFT: f64 = 0.1;
 /// Share of its squared residual that a fit has to go from which on it has not arrived.
 const FAR: f64 = 0.1;
-/// Share of its squared residual that a fit under way is trusted to gain.
-const PROMISE: f64 = 0.9;
-/// Evidence by which a fit under way may be promised to lag behind the best and still be refined.
-const HOPELESS_FIT: f64 = 60.0;
+/// Share of its squared residual that a fit under way is expected to gain at most.
+const GAIN: f64 = 0.9;
+/// Evidence by which a fit under way may be expected to end behind the best and still be refined.
+const MOST_BEHIND: f64 = 60.0;
 
 impl ReferenceModel<'_> {
     /// Fits the sets on the response: all of them a little, those that may still become the best to the end.
@@ -52,7 +52,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The fits that may still become the best, refined to the end; the others as they are. Valleys of the misfit are long where
-    /// corrections are free beside effects much like them: those that still promise to be the best go on once more.
+    /// corrections are free beside effects much like them: those that are still expected to be the best go on once more.
     pub(crate) fn finished(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let once = self.refined_once(begun)?;
         self.refined_once(once)
@@ -61,10 +61,10 @@ impl ReferenceModel<'_> {
     fn refined_once(&self, begun: Vec<FittedModel>) -> Result<Vec<FittedModel>, DiagnosisError> {
         let scale = scale_of(&begun, self.count());
         let best = begun.iter().map(|r| self.evidence(r, scale)).fold(f64::INFINITY, f64::min);
-        let promised = |r: &FittedModel| self.evidence(r, scale) - r.descent.to_go.min(PROMISE * r.chi_square) / scale;
+        let expected = |r: &FittedModel| self.evidence(r, scale) - r.descent.to_go.min(GAIN * r.chi_square) / scale;
         let go_on = |k: usize| {
             let fit = &begun[k];
-            if fit.descent.to_go < LEFT * scale || promised(fit) > best + HOPELESS_FIT {
+            if fit.descent.to_go < LEFT * scale || expected(fit) > best + MOST_BEHIND {
                 return Ok(fit.clone());
             }
             self.estimator().fit(&fit.effects, STEPS, &SEARCH, &fit.starts)
@@ -116,12 +116,12 @@ impl ReferenceModel<'_> {
     ) -> Result<(Vec<FittedModel>, Arc<NoiseModel>), DiagnosisError> {
         let mut best = fits;
         let scale = scale_of(&best, self.count());
-        let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + HOPELESS_FIT;
+        let bound = best.first().map_or(0.0, |r| self.evidence(r, scale)) + MOST_BEHIND;
         let near = best.iter().take_while(|r| self.evidence(r, scale) < bound).count();
         let most = if scale > COARSE { ROUGHLY } else { POLISHED };
         let mut rest = best.split_off(near.clamp(1, most).min(best.len()));
-        // Few harmonics speak for laws that can bend to what they lack: the simpler ones are to be heard as well.
-        if let Some(set) = best.first().filter(|_| scale < HOPELESSLY_COARSE).map(|r| r.effects.clone()) {
+        // Few harmonics speak for laws that can bend to what they lack: the simpler ones are fitted as well.
+        if let Some(set) = best.first().filter(|_| scale < TOO_COARSE).map(|r| r.effects.clone()) {
             let (simpler, others) = rest.into_iter().partition(|r| is_limit(&r.effects, &set));
             best.extend::<Vec<FittedModel>>(simpler);
             rest = others;

@@ -48,7 +48,8 @@ impl ReferenceModel<'_> {
     /// with responses that start from `starts`, so far as the squared residual may get below `most`.
     pub(super) fn joint_fit(
         &self,
-        (effects, starts): (&[Source], &Starts),
+        effects: &[Source],
+        starts: &Starts,
         settings: &Settings,
         steps: usize,
         most: f64,

@@ -84,22 +84,22 @@ pub(crate) trait Residual {
     }
 }
 
-/// How many times what the linear fit promises a descent may gain where the response bends.
+/// How many times what the linear fit predicts a descent may gain where the response bends.
 const BEYOND: f64 = 2.0;
 
-/// Whether what is left, of which the linear fit promises to take away `to_go`, stays above the `most` that is of interest.
-pub(crate) fn is_hopeless(left: f64, to_go: f64, most: f64) -> bool {
+/// Whether what is left, of which the linear fit is to take away `to_go`, stays above the `most` that is of interest.
+pub(crate) fn stays_above(left: f64, to_go: f64, most: f64) -> bool {
     left - BEYOND * to_go > most
 }
 
 /// A descent has arrived when no more than this is to be gained, in units of the squared residual per datum.
 const ARRIVED: f64 = 0.02;
-/// Share of what the derivative promises below which a step gains next to nothing.
+/// Share of what the derivative predicts below which a step gains next to nothing.
 const STUCK: f64 = 1e-3;
 /// Steps in a row that gain no more than that before a descent gives up.
 const IDLE: usize = 3;
 
-/// Share of the gain that counts which a step must promise to be tried where another has failed.
+/// Share of the gain that counts which a step must be predicted to bring to be tried where another has failed.
 const TRIED: f64 = 0.1;
 
 /// Longest step, in natural units (a logarithm, a prior deviation), and the damping up to which it is raised to keep within.
@@ -122,12 +122,12 @@ pub(crate) fn descend<R: Residual>(problem: &mut R, theta: &[f64], steps: usize)
     let (mut damping, mut idle) = (1e-3, 0);
     for _ in 0..steps {
         let enough = problem.enough() * (chi_square / residual.len().max(1) as f64).max(1.0);
-        let hopeless = is_hopeless(chi_square, equations.to_go(), problem.most());
-        if equations.to_go() < enough || hopeless || problem.is_late() {
+        let above = stays_above(chi_square, equations.to_go(), problem.most());
+        if equations.to_go() < enough || above || problem.is_late() {
             break;
         }
-        let from = (&theta[..], &residual[..], &jacobian);
-        let Some((next, after, chi)) = step(problem, from, (&equations, enough), &mut damping)? else { break };
+        let stepped = step(problem, &theta, &residual, &jacobian, &equations, enough, &mut damping)?;
+        let Some((next, after, chi)) = stepped else { break };
         let gain = chi_square - chi;
         idle = if gain < enough || gain < STUCK * equations.to_go() { idle + 1 } else { 0 };
         (theta, residual, chi_square) = (next, after, chi);
@@ -185,7 +185,7 @@ impl Normal {
     }
 
     /// What the step `move`, damped so, would take from the squared residual were it linear: `g^T move + damping move^T diag N move`.
-    fn promised(&self, damping: f64, by: &Mat<f64>) -> f64 {
+    fn predicted_reduction(&self, damping: f64, by: &Mat<f64>) -> f64 {
         let of_variable = |k: usize| by[(k, 0)] * (self.gradient[(k, 0)] + damping * self.matrix[(k, k)] * by[(k, 0)]);
         (0..by.nrows()).map(of_variable).sum()
     }
@@ -201,18 +201,22 @@ impl Normal {
 /// The next point of a descent with its residual.
 type Point = (Vec<f64>, Vec<f64>, f64);
 
-/// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that promises a share of `enough`.
+/// A step that lowers the residual, whose value and derivative at `theta` are given; none if none does that is predicted to bring a share
+/// of `enough`.
 fn step<R: Residual>(
     problem: &mut R,
-    (theta, residual, jacobian): (&[f64], &[f64], &Mat<f64>),
-    (equations, enough): (&Normal, f64),
+    theta: &[f64],
+    residual: &[f64],
+    jacobian: &Mat<f64>,
+    equations: &Normal,
+    enough: f64,
     damping: &mut f64,
 ) -> Result<Option<Point>, R::Error> {
     let chi_square = sum_of_squares(residual);
     let (bounds, mut failed) = (problem.bounds(), false);
     while *damping < DAMPING[1] {
         if let Some(straight) = equations.move_by(*damping) {
-            if failed && equations.promised(*damping, &straight) < TRIED * enough {
+            if failed && equations.predicted_reduction(*damping, &straight) < TRIED * enough {
                 return Ok(None);
             }
             let straight: Vec<f64> = (0..theta.len()).map(|k| -straight[(k, 0)]).collect();
@@ -229,7 +233,7 @@ fn step<R: Residual>(
                 next
             };
             let bend = if (failed || *damping > STRAIGHT) && share == 1.0 {
-                bend(problem, theta, (residual, jacobian), equations, *damping, &straight)?
+                bend(problem, theta, residual, jacobian, equations, *damping, &straight)?
             } else {
                 None
             };
@@ -255,7 +259,8 @@ fn step<R: Residual>(
 fn bend<R: Residual>(
     problem: &mut R,
     theta: &[f64],
-    (residual, jacobian): (&[f64], &Mat<f64>),
+    residual: &[f64],
+    jacobian: &Mat<f64>,
     equations: &Normal,
     damping: f64,
     straight: &[f64],

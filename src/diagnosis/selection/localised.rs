@@ -208,7 +208,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// Whether a law regressed beside the model as it is would bring `evidence`.
-    pub(super) fn promises(&self, evidence: f64) -> Result<bool, DiagnosisError> {
+    pub(super) fn is_law_expected(&self, evidence: f64) -> Result<bool, DiagnosisError> {
         let mut view = self.view(None)?;
         let bound = view.screen.nothing() - evidence;
         let unfitted = self.unfitted(&mut view, &[], Breadth::All)?;

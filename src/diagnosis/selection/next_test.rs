@@ -81,17 +81,17 @@ fn of_base(omega: f64, forces: &[(usize, c64)], times: f64) -> Excitation {
     Excitation { omega, forces: forces.iter().map(force).collect() }
 }
 
-/// The test that separates the effects `best` from those of `rival`; none if nothing does.
+/// The test that separates the effects `best` from those of `other`; none if nothing does.
 pub(crate) fn next_test(
     reference: &ReferenceModel,
     best: &[Source],
-    rival: &[Source],
+    other: &[Source],
 ) -> Result<Option<NextTest>, DiagnosisError> {
     let mut found: Option<(f64, Trial)> = None;
     for trial in Trial::all(reference) {
         reference.control.check()?;
         let Some(a) = trial.respond(reference, best, None) else { continue };
-        let Some(b) = trial.respond(reference, rival, None) else { continue };
+        let Some(b) = trial.respond(reference, other, None) else { continue };
         let gain = difference(reference, &a, &b);
         if found.as_ref().is_none_or(|(most, _)| gain > *most) {
             found = Some((gain, trial));
@@ -101,12 +101,12 @@ pub(crate) fn next_test(
         let names: Vec<&str> = effects.iter().map(|e| Effect::title(e.effect)).collect();
         names.join(" and ")
     };
-    let channel = rival.iter().chain(best).any(|e| matches!(e.effect.kind(), Kind::Channel(_)));
+    let channel = other.iter().chain(best).any(|e| matches!(e.effect.kind(), Kind::Channel(_)));
     Ok(found.filter(|(gain, _)| *gain > 0.0 || channel).map(|(gain, trial)| {
         trial.named(format!(
             "{} and {} differ there by {gain:.1} standard deviations of the measured channels",
             name(best),
-            name(rival)
+            name(other)
         ))
     }))
 }

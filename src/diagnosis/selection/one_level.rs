@@ -11,8 +11,8 @@ use crate::diagnosis::selection::conclusion::{Outcome, UNEXPLAINED, corrections}
 use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::cost;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search_result::cost;
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::stepwise;
 use crate::diagnosis::updating::correction::{Correction, with_corrections};
@@ -61,7 +61,7 @@ pub(crate) fn explain<'a>(
         }
         let bare = reference.bare()?;
         let here = bare.with_scales(bare.linearisation.updating.scales);
-        return selected((reference, &bare), before, (here, fits), None).map(Some);
+        return selected(reference, &bare, before, here, fits, None).map(Some);
     }
     Ok(None)
 }

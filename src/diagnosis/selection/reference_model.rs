@@ -18,9 +18,9 @@ use crate::math::statistics::{bayesian_information, evidence_weights, root_mean_
 use std::sync::Arc;
 
 /// What a place costs that is the rotation of a node which moves: of fifty effects one is there, `2 ln 50`.
-const TURNING: f64 = 8.0;
+const ROTATION: f64 = 8.0;
 /// What a law costs that is fitted next to a simpler one: records are not so exact that they could tell.
-const POSING: f64 = 20.0;
+const BESIDE_SIMPLER: f64 = 20.0;
 
 /// Everything that a search needs about one reference model.
 #[derive(Clone)]
@@ -146,18 +146,18 @@ impl<'a> ReferenceModel<'a> {
         let turning = fit.effects.iter().filter(|e| turns_a_moving_node(self.predictor.structure(), &e.place)).count();
         bayesian_information(fit.chi_square / scale.max(1.0), fit.parameters, self.count())
             + Self::complexity(fit)
-            + TURNING * turning as f64
+            + ROTATION * turning as f64
     }
 
     /// What the laws of a fit cost in evidence for their kind, whatever the data.
     pub(crate) fn complexity(fit: &FittedModel) -> f64 {
         let extra: usize = fit.effects.iter().map(|e| e.parameters.len() - 1).sum();
-        EXTRA * extra as f64 + Self::posing(fit)
+        EXTRA * extra as f64 + Self::cost_beside_simpler(fit)
     }
 
     /// The part of it that laws cost which are all but a simpler one.
-    pub(crate) fn posing(fit: &FittedModel) -> f64 {
-        POSING * fit.all_but_simpler().count() as f64
+    pub(crate) fn cost_beside_simpler(fit: &FittedModel) -> f64 {
+        BESIDE_SIMPLER * fit.all_but_simpler().count() as f64
     }
 
     /// Probability of each fit by its evidence, their squared residuals scaled by what the best leaves.
@@ -174,7 +174,7 @@ impl<'a> ReferenceModel<'a> {
             r.chi_square.is_finite()
                 && few(r)
                 && r.effects.iter().zip(&r.deviations).all(allowed)
-                && r.effects.iter().zip(&r.deviations).all(is_real)
+                && r.effects.iter().zip(&r.deviations).all(|(e, d)| is_real(e, d))
         });
         let scale = scale_of(&fits, self.count());
         fits.sort_by(|a, b| self.evidence(a, scale).total_cmp(&self.evidence(b, scale)));

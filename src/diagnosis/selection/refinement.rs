@@ -13,8 +13,8 @@ use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{agrees, cost};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search_result::{agrees, cost};
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::parameters::Updating;
@@ -36,7 +36,7 @@ const MARGIN: f64 = 60.0;
 const COARSE: f64 = 3.0;
 const COARSE_FOR_LINEAR: f64 = 1.5;
 /// Best sets whose limits are refined too, and how many times their score those may leave.
-const HEARD: usize = 2;
+const WITH_LIMITS: usize = 2;
 const LIMIT: f64 = 2.0;
 /// The same of friction, which is regressed badly where it sticks: plain friction, the hidden one, was not among the candidates of
 /// development project 508.
@@ -48,8 +48,8 @@ const UPDATES: usize = 6;
 /// Share of the squared residual of the stated model which a law of the whole structure may leave beside it to be refined from
 /// there: a model that is off in frequency by some per cent leaves about as much with as without it.
 const STANDS_OUT: f64 = 0.2;
-/// How many times what its regression promised a candidate may leave before shorter steps of the model beside it are tried, and
-/// these, as shares of the whole. Both are linear in the model: fits that hold to it leave as much as was promised, those that had
+/// How many times what its regression predicts a candidate may leave before shorter steps of the model beside it are tried, and
+/// these, as shares of the whole. Both are linear in the model: fits that hold to it leave as much as is predicted, those that had
 /// landed on another resonance (development seeds 441 and 522) tens of times as much.
 const MISSED: f64 = 3.0;
 const SHARES: [f64; 3] = [0.3, 0.1, 0.0];
@@ -64,7 +64,7 @@ impl<'a> ReferenceModel<'a> {
         unfitted: Vec<UnfittedSet>,
     ) -> Result<Vec<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let unfitted = without_idle_parameters(without_falling_friction(unfitted), self.count());
-        let unfitted = promising(unfitted, self.count());
+        let unfitted = preselected(unfitted, self.count());
         let mut view = self.view(None)?;
         let mut targets = Vec::with_capacity(unfitted.len());
         for unfitted in &unfitted {
@@ -72,7 +72,7 @@ impl<'a> ReferenceModel<'a> {
         }
         drop(view);
         self.all_refined(&unfitted, f64::INFINITY, |k, most| {
-            self.refined_set(&unfitted[k], targets[k].as_deref(), (&[], &SEARCH), most)
+            self.refined_set(&unfitted[k], targets[k].as_deref(), &[], &SEARCH, most)
         })
     }
 
@@ -139,7 +139,7 @@ impl<'a> ReferenceModel<'a> {
     ) -> Result<Option<(ReferenceModel<'a>, FittedModel)>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
-        let stepped = self.stepped(updating, (&fit.effects, &fit.starts), settings)?;
+        let stepped = self.stepped(updating, &fit.effects, &fit.starts, settings)?;
         let Some((_, reference)) = stepped else { return Ok(None) };
         let fitted = reference.refitted(fit, settings)?;
         Ok(Some((reference, fitted)))
@@ -193,11 +193,11 @@ impl<'a> ReferenceModel<'a> {
         drop(view);
         unfitted.retain(|d| d.score < bound);
         unfitted.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let unfitted = promising(without_falling_friction(unfitted), self.count());
+        let unfitted = preselected(without_falling_friction(unfitted), self.count());
         // On the same footing as what they are beside.
         let settings = settings_for(from, self.count(), &SEARCH);
         self.all_refined(&unfitted, cost(self, Some(from)) - BROUGHT * evidence, |k, most| {
-            self.refined_set(&unfitted[k], None, (&from.effects, settings), most)
+            self.refined_set(&unfitted[k], None, &from.effects, settings, most)
         })
     }
 
@@ -207,7 +207,8 @@ impl<'a> ReferenceModel<'a> {
         &self,
         unfitted: &UnfittedSet,
         target: Option<&[f64]>,
-        (others, settings): (&[Source], &Settings),
+        others: &[Source],
+        settings: &Settings,
         most: f64,
     ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
         let effects = joined(others, &unfitted.effects);
@@ -297,7 +298,7 @@ fn shortened<'a>(
 }
 
 /// The best sets, no more than a few at one place, plain friction before friction that falls.
-fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
+fn preselected(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
     let Some(best) = unfitted.first().map(|d| d.score) else { return unfitted };
     let scale = (best / count.max(1) as f64).max(1.0);
     // Where even the best leaves much, the motion between the sensors is not known well enough to tell them apart.
@@ -326,7 +327,7 @@ fn promising(unfitted: Vec<UnfittedSet>, count: usize) -> Vec<UnfittedSet> {
 
 /// The best sets with the simpler laws that they contain as limits, from all `unfitted`.
 fn with_limits(mut kept: Vec<UnfittedSet>, unfitted: &[UnfittedSet]) -> Vec<UnfittedSet> {
-    for set in kept.clone().iter().take(HEARD) {
+    for set in kept.clone().iter().take(WITH_LIMITS) {
         let (effect, place) = (set.effects[0].effect, &set.effects[0].place);
         for simpler in effect.limits() {
             let is = |d: &&UnfittedSet| d.effects[0].effect == simpler && d.effects[0].place.is_same(place);

@@ -1,6 +1,6 @@
 //! The search for one more effect, or two at once: places first, then laws, then the fit on the response.
 
-use super::short_list::{Breadth, promising_places, score_bound};
+use super::short_list::{Breadth, preselected_places, score_bound};
 use crate::diagnosis::candidates::friction::friction;
 use crate::diagnosis::candidates::identified_force::{LawFit, PlaceData};
 use crate::diagnosis::candidates::start::{Fields, UnfittedSet};
@@ -87,7 +87,7 @@ impl ReferenceModel<'_> {
             _ => self.worth_while(view, effects)?,
         };
         let mut laws = self.all_laws(view, &placings, effects, Breadth::Simple)?;
-        let wide = promising_places(&placings, &laws);
+        let wide = preselected_places(&placings, &laws);
         let chosen: Vec<Placing> = wide.iter().map(|&k| placings[k].clone()).collect();
         if breadth == Breadth::All && !self.control.is_late() {
             for (k, all) in wide.into_iter().zip(self.all_laws(view, &chosen, effects, Breadth::All)?) {
@@ -236,7 +236,7 @@ impl ReferenceModel<'_> {
             Spot::Leg(leg) if !self.data.runs.is_empty() => self.predictor.run(0).static_compliance(*leg),
             _ => 0.0,
         };
-        PlaceData::new(self.data, spot, forces, fields, (impedances, still), view.screen.freedom(s))
+        PlaceData::new(self.data, spot, forces, fields, impedances, still, view.screen.freedom(s))
     }
 
     /// Places whose laws may become the best: what the best place leaves to its best law bounds what others may leave.

@@ -7,8 +7,8 @@ use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::cost;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search_result::cost;
 use crate::diagnosis::updating::scales::Scales;
 
 /// Scale of the stiffness from session to session, relative, beside which all are alike.

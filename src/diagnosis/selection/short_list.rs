@@ -13,16 +13,16 @@ pub(super) const EXTRA: f64 = 8.0;
 /// Most laws of one place that are fitted on the response.
 const LAWS_AT_ONE_PLACE: usize = 4;
 /// Sets whose score is this many times that of the best are not fitted.
-const HOPELESS: f64 = 5.0;
+const SCORE_RATIO: f64 = 5.0;
 /// Places by either order at which laws of many parameters are regressed.
-const TELLING: usize = 3;
+const PRESELECTED: usize = 3;
 /// Score, in units of that of a set, below which a simpler one is as good for a start.
 const CLEARLY: f64 = 1.2;
 /// Relative deviation of the size of an effect from which on there may as well be none.
 pub(super) const VOID: f64 = 0.5;
 
 /// Whether an effect with the standard deviations of its parameters is one: of a size that the data know, within bounds.
-pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
+pub(super) fn is_real(source: &Source, deviations: &[f64]) -> bool {
     let value = source.parameters[0];
     match source.effect.kind() {
         Kind::Channel(law) => {
@@ -38,7 +38,7 @@ pub(super) fn is_real((source, deviations): (&Source, &Vec<f64>)) -> bool {
 
 /// Score beyond which sets are not fitted where the best has the score `best`.
 pub(super) fn score_bound(best: f64) -> f64 {
-    HOPELESS * best.abs() + 300.0
+    SCORE_RATIO * best.abs() + 300.0
 }
 
 /// Which laws are regressed at a place.
@@ -54,7 +54,7 @@ pub(crate) enum Breadth {
 
 /// The places whose laws of many parameters are regressed: those that leave least to a free force, and those that leave least
 /// to a law of few.
-pub(super) fn promising_places(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> Vec<usize> {
+pub(super) fn preselected_places(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet>>]) -> Vec<usize> {
     let score = |k: usize| {
         let best = laws[k].iter().flatten().map(|d| d.score).fold(f64::INFINITY, f64::min);
         placings[k].chi_square + best
@@ -62,7 +62,7 @@ pub(super) fn promising_places(placings: &[Placing], laws: &[Vec<Vec<UnfittedSet
     let sorted = |key: &dyn Fn(usize) -> f64| {
         let mut order: Vec<usize> = (0..placings.len()).collect();
         order.sort_by(|&a, &b| key(a).total_cmp(&key(b)));
-        order.truncate(TELLING);
+        order.truncate(PRESELECTED);
         order
     };
     let mut chosen = sorted(&|k| placings[k].chi_square);

@@ -34,7 +34,7 @@ const ROUNDS: usize = 12;
 /// Times that a model is updated beside its candidate.
 const UPDATES: usize = 6;
 
-/// A single change with what it promises.
+/// A single change with the evidence that it is estimated to bring.
 #[derive(Debug)]
 pub(super) struct SingleChange {
     pub source: Source,
@@ -45,8 +45,8 @@ pub(super) struct SingleChange {
 }
 
 impl<'a> ReferenceModel<'a> {
-    /// The single changes that promise `evidence` beside what the corrections of this model are reduced to, best first; none
-    /// where the model has sources that are not linear.
+    /// The single changes that are estimated to bring `evidence` beside what the corrections of this model are reduced to, best first;
+    /// none where the model has sources that are not linear.
     pub(super) fn single_changes(&self, evidence: f64) -> Result<Vec<SingleChange>, DiagnosisError> {
         if !self.predictor.known().iter().all(|source| source.effect.is_linear()) {
             return Ok(Vec::new());

@@ -2,8 +2,8 @@
 //! where effects alone do not get there, beside corrections.
 
 use super::beside_corrections::beside_updating;
-use super::found::{
-    AGREES, DOUBTFUL, EVIDENCE, FittedSets, Found, LAST, MOST_EFFECTS, distinct, fits_well, same_set, small,
+use super::search_result::{
+    AGREES, DOUBTFUL, EVIDENCE, FittedSets, LAST, MOST_EFFECTS, SearchResult, distinct, fits_well, same_set, small,
 };
 use crate::diagnosis::candidates::special_cases::is_limit;
 use crate::diagnosis::channels::ChannelFault;
@@ -32,7 +32,7 @@ const INEXACT: f64 = 30.0;
 
 /// One effect more where a set agrees with the data, if it has overwhelming evidence: the sum of squares alone may hide
 /// an effect that others stand in for.
-fn confirm(reference: &ReferenceModel, found: &mut Found) -> Result<(), DiagnosisError> {
+fn confirm(reference: &ReferenceModel, found: &mut SearchResult) -> Result<(), DiagnosisError> {
     let Some(last) = found.by_size.last().filter(|_| found.by_size.len() < MOST_EFFECTS) else { return Ok(()) };
     let best = &last.fits[0];
     let (n, parameters) = (reference.count() as f64, best.parameters);
@@ -59,7 +59,7 @@ pub(crate) fn explain(
     if reference.data.doubted {
         return beside_updating(reference, before);
     }
-    let none = || Found { updated: false, by_size: Vec::new(), agrees: false, before, without: 0.0 };
+    let none = || SearchResult { updated: false, by_size: Vec::new(), agrees: false, before, without: 0.0 };
     let mut exact = none();
     let reach = reference.reach()?;
     let n = reference.count() as f64;
@@ -77,8 +77,8 @@ pub(crate) fn explain(
         return Ok(Ok(Outcome { reference, found: exact }));
     }
     // Free forces at two places explain whatever two sensors see.
-    let telling = reference.data.runs.iter().all(|run| run.alive.len() > 2);
-    if telling && !within(reach.single) && reach.pair <= noise && two_at_once(&reference, &mut exact)? {
+    let enough = reference.data.runs.iter().all(|run| run.alive.len() > 2);
+    if enough && !within(reach.single) && reach.pair <= noise && two_at_once(&reference, &mut exact)? {
         confirm(&reference, &mut exact)?;
         return Ok(Ok(Outcome { reference, found: exact }));
     }
@@ -88,9 +88,9 @@ pub(crate) fn explain(
     }
     let stated = reference.clone();
     let found = beside_updating(reference, before)?;
-    let doubtful = |outcome: &Outcome| !outcome.reference.linearisation.updating.is_believable();
+    let doubtful = |outcome: &Outcome| !outcome.reference.linearisation.updating.is_plausible();
     // Corrections that no model needs stand in for a second effect: two may agree with the model as it is.
-    if telling && found.as_ref().is_ok_and(doubtful) && !stated.control.is_late() && two_at_once(&stated, &mut exact)? {
+    if enough && found.as_ref().is_ok_and(doubtful) && !stated.control.is_late() && two_at_once(&stated, &mut exact)? {
         confirm(&stated, &mut exact)?;
         return Ok(Ok(Outcome { reference: stated, found: exact }));
     }
@@ -98,7 +98,7 @@ pub(crate) fn explain(
 }
 
 /// Whether two effects at once agree with the data; then they are what was found.
-fn two_at_once(reference: &ReferenceModel, found: &mut Found) -> Result<bool, DiagnosisError> {
+fn two_at_once(reference: &ReferenceModel, found: &mut SearchResult) -> Result<bool, DiagnosisError> {
     let (fits, noise) = reference.polished(distinct(reference.pairs()?))?;
     let fits = plainest(reference, found, fits);
     found.agrees = fits.first().is_some_and(|best| fits_well(reference, found, best));
@@ -116,7 +116,7 @@ fn two_at_once(reference: &ReferenceModel, found: &mut Found) -> Result<bool, Di
 /// Adds the sets of these fits if the best of them has the evidence.
 pub(crate) fn add_size(
     reference: &ReferenceModel,
-    found: &mut Found,
+    found: &mut SearchResult,
     fits: Vec<FittedModel>,
     last: (f64, usize),
 ) -> Result<bool, DiagnosisError> {
@@ -126,14 +126,14 @@ pub(crate) fn add_size(
     let (mut fits, mut noise) = reference.polished(fits)?;
     let Some(best) = fits.first() else { return Ok(false) };
     // Beside a model that is not exact none of them agrees: other laws and places are then looked at beside corrections.
-    let hopeless = best.chi_square > INEXACT * reference.count() as f64;
-    if !hopeless && !fits_well(reference, found, best) {
+    let inexact = best.chi_square > INEXACT * reference.count() as f64;
+    if !inexact && !fits_well(reference, found, best) {
         let more = reference.generalisations(best, |_| true)?;
         fits.extend(more);
         (fits, noise) = reference.polished(distinct(reference.ranked(fits)))?;
     }
     let Some(best) = fits.first() else { return Ok(false) };
-    if let Some(source) = best.effects.last().filter(|_| !hopeless) {
+    if let Some(source) = best.effects.last().filter(|_| !inexact) {
         let quiet = ReferenceModel { noise: noise.clone(), ..reference.clone() };
         let margin = ELSEWHERE * scale_of(&fits, reference.count());
         let fresh = |r: &FittedModel| !fits.iter().any(|known| same_set(&known.effects, &r.effects));
@@ -161,7 +161,7 @@ pub(crate) fn add_size(
 
 /// Without the sets whose laws contain simpler ones that leave no more than records and integrators are wrong by: what
 /// little such laws explain beyond is as likely an error of those.
-fn plainest(reference: &ReferenceModel, found: &Found, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
+fn plainest(reference: &ReferenceModel, found: &SearchResult, mut fits: Vec<FittedModel>) -> Vec<FittedModel> {
     let enough = |fit: &FittedModel| small(reference, fit, found.before, [PLAIN, PLAIN_ERROR]);
     let contains = |set: &FittedModel, simple: &FittedModel| {
         simple.parameters < set.parameters && is_limit(&simple.effects, &set.effects) && enough(simple)

@@ -42,7 +42,8 @@ impl ReferenceModel<'_> {
         &self,
         judged: impl Fn(f64, f64) -> bool,
         [error, floor]: [f64; 2],
-        (effects, starts): (&[Source], &Starts),
+        effects: &[Source],
+        starts: &Starts,
     ) -> Result<bool, DiagnosisError> {
         Ok(judged(error, floor) && judged(self.error_beside_jumps(effects, starts)?, floor))
     }
@@ -99,7 +100,7 @@ mod tests {
                 let all = reference.error_of_structure(effects, &starts).unwrap();
                 let beyond = |most: f64| {
                     let judged = |error: f64, _: f64| error > most;
-                    reference.leaves(judged, [all, 0.0], (effects, &starts)).unwrap()
+                    reference.leaves(judged, [all, 0.0], effects, &starts).unwrap()
                 };
                 (beyond(0.999 * all), all)
             };

@@ -5,7 +5,7 @@ use super::updated::REFITTED;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::residual::prediction::FINAL;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::levenberg_marquardt::is_hopeless;
+use crate::diagnosis::selection::levenberg_marquardt::stays_above;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::solver_settings::{has_friction, settings_for};
 use crate::math::statistics::sum_of_squares;
@@ -13,7 +13,7 @@ use crate::response::harmonic_balance::Settings;
 
 /// Evidence that the linear fit of the updating parameters may still gain where they have converged: no decision hangs on less.
 pub(super) const CONVERGED: f64 = 2.0;
-/// Share of what the linear fit promises below which a step is too slow to go on.
+/// Share of what the linear fit predicts below which a step is too slow to go on.
 const SLOW: f64 = 1e-3;
 /// Steps of a joint fit of effects and updating parameters.
 const JOINT_STEPS: usize = 12;
@@ -27,11 +27,11 @@ impl<'a> ReferenceModel<'a> {
         for _ in 0..rounds {
             let linear =
                 sum_of_squares(&reference.estimator().residual(&reference.predictions)) + reference.noise.cost();
-            if here - linear < CONVERGED || is_hopeless(here, here - linear, most) || reference.control.is_late() {
+            if here - linear < CONVERGED || stays_above(here, here - linear, most) || reference.control.is_late() {
                 break;
             }
             let left = most - reference.noise.cost();
-            let joint = reference.joint_fit((&[], &Vec::new()), &FINAL, JOINT_STEPS, left)?;
+            let joint = reference.joint_fit(&[], &Vec::new(), &FINAL, JOINT_STEPS, left)?;
             let there = reference.updated(&joint.updating, &[], &Vec::new())?;
             let then = there.cost_at_reference(&there.predictions);
             if then >= here {
@@ -72,11 +72,11 @@ impl<'a> ReferenceModel<'a> {
         let mut here = reference.cost_at_reference(&reference.predictions_with(&fit.effects, &fit.starts, settings)?);
         for _ in 0..rounds {
             let linear = fit.chi_square + reference.noise.cost();
-            if here - linear < CONVERGED || is_hopeless(here, here - linear, most) || reference.control.is_late() {
+            if here - linear < CONVERGED || stays_above(here, here - linear, most) || reference.control.is_late() {
                 break;
             }
             let left = most - reference.noise.cost();
-            let joint = reference.joint_fit((&fit.effects, &fit.starts), settings, JOINT_STEPS, left)?;
+            let joint = reference.joint_fit(&fit.effects, &fit.starts, settings, JOINT_STEPS, left)?;
             let there = reference.updated_as(&joint.updating, &joint.effects, &joint.starts, settings)?;
             let again = there.estimator().fit(&joint.effects, REFITTED, settings, &joint.starts)?;
             let then = there.cost_at_reference(&there.predictions_with(&again.effects, &again.starts, settings)?);
@@ -94,7 +94,7 @@ impl<'a> ReferenceModel<'a> {
     }
 }
 
-/// Least gain of a step towards a linear fit that promises `more`.
+/// Least gain of a step towards a linear fit that predicts `more`.
 fn slowest(more: f64) -> f64 {
     (SLOW * more).max(0.5 * CONVERGED)
 }

@@ -9,8 +9,8 @@ use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::residual::prediction::SEARCH;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, EVIDENCE};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search_result::{DOUBTFUL, EVIDENCE};
 use crate::diagnosis::updating::scales::Scales;
 use crate::diagnosis::updating::serial_correlation::evidence_against_scatter;
 use crate::effects::{Kind, Place, Source};
@@ -52,7 +52,7 @@ impl<'a> ReferenceModel<'a> {
             return Ok(None);
         }
         let mut refined = self.refined(unfitted)?;
-        let alike = self.control.map(refined.len(), |k| if_possible(with_runs_alike(&refined[k])));
+        let alike = self.control.map(refined.len(), |k| if_possible(with_runs_alike(&refined[k].0, &refined[k].1)));
         for alike in alike {
             refined.extend(alike?);
         }
@@ -98,7 +98,8 @@ impl<'a> ReferenceModel<'a> {
 /// A candidate with its model settled anew where runs hardly differ but by a share of their response: what differs from run to run takes
 /// over so much of what laws do that a descent beside it may have ended far from where all runs are explained alike.
 fn with_runs_alike<'a>(
-    (reference, fit): &(ReferenceModel<'a>, FittedModel),
+    reference: &ReferenceModel<'a>,
+    fit: &FittedModel,
 ) -> Result<(ReferenceModel<'a>, FittedModel), DiagnosisError> {
     let updating = reference.linearisation.updating.without_force_gains_and_shifts().with_scales(ALIKE);
     let there = reference.updated_as(&updating, &fit.effects, &fit.starts, &SEARCH)?;

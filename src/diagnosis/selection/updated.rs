@@ -6,8 +6,8 @@ use crate::diagnosis::residual::prediction::{FINAL, RunPrediction};
 use crate::diagnosis::selection::estimator::Starts;
 use crate::diagnosis::selection::fit_problem::{RunSlopes, run_slopes};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{agrees, most_of_noise};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search_result::{agrees, most_of_noise};
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Derivatives, Linearisation, amplitudes, of_channel};
@@ -183,7 +183,7 @@ impl<'a> ReferenceModel<'a> {
     pub(crate) fn bare(&self) -> Result<ReferenceModel<'a>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let rigid = Updating::all(stated, known, self.data);
-        let stepped = |updating: Updating| self.stepped(updating, (&[], &Vec::new()), &FINAL);
+        let stepped = |updating: Updating| self.stepped(updating, &[], &Vec::new(), &FINAL);
         let mut best = stepped(rigid.clone())?;
         if best.as_ref().is_none_or(|(left, _)| *left > SUPPORTED * self.count() as f64) {
             for updating in rigid.giving_way() {
@@ -203,7 +203,8 @@ impl<'a> ReferenceModel<'a> {
     pub(super) fn stepped(
         &self,
         mut updating: Updating,
-        (effects, starts): (&[Source], &Starts),
+        effects: &[Source],
+        starts: &Starts,
         settings: &Settings,
     ) -> Result<Option<(f64, ReferenceModel<'a>)>, DiagnosisError> {
         let mut best: Option<(f64, ReferenceModel<'a>)> = None;

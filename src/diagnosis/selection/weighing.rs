@@ -10,8 +10,8 @@ use crate::diagnosis::residual::prediction::{FINAL, SEARCH};
 use crate::diagnosis::selection::conclusion::{TOLERATED, UNEXPLAINED};
 use crate::diagnosis::selection::fits::{FIRST_STEPS, STEPS};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{FittedSets, Found, agrees, cost, same_set};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search_result::{FittedSets, SearchResult, agrees, cost, same_set};
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::successive_linearisation::CONVERGED;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -34,7 +34,7 @@ pub(super) struct Weighed<'a> {
 
 impl<'a> Weighed<'a> {
     /// Makes it what was found last; its model and its evidence.
-    pub(super) fn taken_into(self, found: &mut Found) -> (ReferenceModel<'a>, f64) {
+    pub(super) fn taken_into(self, found: &mut SearchResult) -> (ReferenceModel<'a>, f64) {
         let Self { reference, fits, probabilities, least } = self;
         found.agrees = agrees(&reference, fits[0].chi_square, fits[0].parameters);
         let scale = scale_of(&fits, reference.count());
@@ -237,8 +237,8 @@ fn limits_of<'a>(best: &Candidate<'a>) -> Result<Vec<Candidate<'a>>, DiagnosisEr
     let late = best.reference.control.is_late();
     for (k, source) in best.fit.effects.iter().enumerate() {
         // A parameter that the data do not know is told of no law, however late it is.
-        let heard = !late || is_open(&best.fit.deviations[k], source);
-        for simpler in source.limits().filter(|s| heard && s.parameters.iter().all(|p| p.is_normal())) {
+        let tried = !late || is_open(&best.fit.deviations[k], source);
+        for simpler in source.limits().filter(|s| tried && s.parameters.iter().all(|p| p.is_normal())) {
             let mut effects = best.fit.effects.clone();
             effects[k] = simpler;
             if !best.reference.data.allows(&effects[k]) {
@@ -320,7 +320,7 @@ fn is_effect(reference: &ReferenceModel, fit: &FittedModel) -> bool {
             _ => false,
         });
         (updated || source.effect.adds_to(Constant::Mass))
-            && is_within_part(reference.predictor.structure(), (source, deviation), part, OF_THE_PART)
+            && is_within_part(reference.predictor.structure(), source, deviation, part, OF_THE_PART)
     };
     !reference.ranked(vec![fit.clone()]).is_empty() && !fit.effects.iter().zip(&fit.deviations).any(within)
 }

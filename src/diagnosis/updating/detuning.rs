@@ -9,8 +9,8 @@ use crate::control::Control;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem};
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::conclusion::corrections;
-use crate::diagnosis::selection::found::agrees;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::selection::search_result::agrees;
 use crate::diagnosis::updating::correction::Correction;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::math::statistics::sum_of_squares;
@@ -132,7 +132,7 @@ pub(crate) fn detuning(problem: &Problem, control: &Control) -> Result<Option<De
     Ok(Some(Detuning { reading, share, error_after, corrections: corrections(&bare) }))
 }
 
-/// Largest correction of a number of the model, as a logarithm, that is believed without looking for an effect.
+/// Largest correction of a number of the model, as a logarithm, that is plausible without looking for an effect.
 const LIKELY: f64 = 0.1;
 /// The same for the size of a known source: a factor of 1.65.
 pub(crate) const LIKELY_SIZE: f64 = 0.5;

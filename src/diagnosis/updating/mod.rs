@@ -2,7 +2,6 @@
 
 pub(crate) mod absorbed_damping;
 pub(crate) mod base_load;
-pub(crate) mod believable;
 pub(crate) mod common_damping;
 pub(crate) mod correction;
 pub(crate) mod detuning;
@@ -15,6 +14,7 @@ pub(crate) mod noise_model;
 pub mod parameters;
 pub(crate) mod part_error;
 pub(crate) mod parts;
+pub(crate) mod plausibility;
 pub mod scales;
 pub mod scatter;
 pub(crate) mod serial_correlation;

@@ -23,12 +23,7 @@ pub(crate) fn takes_away(source: &Source) -> bool {
 }
 
 /// Whether a spring or mass, less its deviation, is less than `share` of `part`, which it would change.
-pub(crate) fn is_within_part(
-    structure: &Structure,
-    (source, deviation): (&Source, f64),
-    part: Part,
-    share: f64,
-) -> bool {
+pub(crate) fn is_within_part(structure: &Structure, source: &Source, deviation: f64, part: Part, share: f64) -> bool {
     source.parameters[0].abs() - deviation < share * size_of(structure, part)
 }
 
@@ -99,7 +94,7 @@ mod tests {
         let chain = ChainParameters { masses, ground_stiffness, coupling_stiffness: vec![1000.0] }.build(&[]).unwrap();
         let judged_within = |effect: Effect, dofs: &[usize], value: f64, deviation: f64| {
             let source = Source::known(effect, Place::Dofs(dofs.to_vec()), &[value]);
-            (takes_away(&source), is_within_part(&chain, (&source, deviation), part_of(&source).unwrap(), 0.05))
+            (takes_away(&source), is_within_part(&chain, &source, deviation, part_of(&source).unwrap(), 0.05))
         };
         let judged = |effect: Effect, dofs: &[usize], value: f64| judged_within(effect, dofs, value, 0.0);
         assert_eq!(judged(Effect::Stiffness, &[0, 1], 40.0), (false, true));

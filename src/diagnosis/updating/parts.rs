@@ -13,7 +13,7 @@ const MOST_MODES: usize = 8;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
 /// Deviations that a harmonic must stand out by to tell the damping of a mode, which is known to a tenth.
-const TELLING: f64 = 10.0;
+const CLEAR: f64 = 10.0;
 
 /// Parts of a structure that are wrong independently of each other, as far as its kind shows them.
 pub(crate) fn parts(structure: &Structure, omegas: &[f64]) -> Vec<Part> {
@@ -54,16 +54,16 @@ pub(crate) fn damped_modes(structure: &Structure, known: &[Source], data: &Data)
     let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
     let modes = modes_in_band(structure, &omegas);
     let mut sizes = modes.clone();
-    sizes.extend(modes_in_band(structure, &telling_harmonics(data)).into_iter().filter(|mode| !modes.contains(mode)));
+    sizes.extend(modes_in_band(structure, &clear_harmonics(data)).into_iter().filter(|mode| !modes.contains(mode)));
     sizes.truncate(if sizes.len() > 1 { MOST_MODES } else { 0 });
     sizes.into_iter().map(Part::ModeDamping).chain(modes.into_iter().map(Part::ModeDampingPerOctave)).collect()
 }
 
 /// Circular frequencies (rad/s) of the higher harmonics that a sensor reads well above its noise: the modes that they come near to
 /// answer them by their damping.
-fn telling_harmonics(data: &Data) -> Vec<f64> {
+fn clear_harmonics(data: &Data) -> Vec<f64> {
     let of_run = |run: &RunData| {
-        let tells = |i: &usize| run.responses.iter().any(|c| c.measured[*i].norm() > TELLING * c.deviation[*i]);
+        let tells = |i: &usize| run.responses.iter().any(|c| c.measured[*i].norm() > CLEAR * c.deviation[*i]);
         (1..run.harmonics).filter(tells).map(|i| (i + 1) as f64 * run.omega).collect::<Vec<f64>>()
     };
     data.runs.iter().flat_map(of_run).collect()

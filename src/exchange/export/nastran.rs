@@ -160,7 +160,7 @@ mod tests {
             [[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]]
         };
         let nodes = [(2, 30.0), (4, 90.0)].map(|(row, angle)| TurnedNode { label: label(row), axes: about_y(angle) });
-        structure.set_origin((Vec::new(), nodes.into()), None, &[]);
+        structure.set_origin(Vec::new(), nodes.into(), None, &[]);
         structure
     }
 

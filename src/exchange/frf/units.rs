@@ -2,10 +2,10 @@
 
 use crate::exchange::mapping::units::LabUnit;
 use crate::measurement::Quantity;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a function relates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Form {
     /// Displacement over force, m/N.

@@ -1,10 +1,10 @@
 //! Table `[[channel]]`: one channel of the laboratory files of a project.
 
 use crate::measurement::Quantity;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// Table `[[channel]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChannelTable {
     /// Name of the channel in the file.
     pub name: String,

@@ -8,7 +8,6 @@ use crate::measurement::Quantity;
 use crate::measurement::base::AXES;
 
 const QUANTITIES: [&str; 5] = ["force", "acc", "vel", "disp", "base"];
-const KEYS: [&str; 10] = ["name", "set", "quantity", "dof", "direction", "unit", "sign", "factor", "delay", "optional"];
 
 /// Reads the tables of a project.
 pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<ChannelTable>, ProjectError> {
@@ -44,7 +43,7 @@ pub fn template(text: &str, file: &str) -> Result<Vec<ChannelTable>, ProjectErro
 }
 
 fn one(table: &Table<'_>) -> Result<ChannelTable, ProjectError> {
-    table.only(&KEYS)?;
+    table.only_in::<ChannelTable>(&["direction"])?;
     let out =
         |key: &str, value: String, range| table.error(key, TableProblem::OutOfRange { key: key.into(), value, range });
     let sign = table.whole("sign")?;

@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 pub const FORMAT: u64 = 1;
 
 /// A project file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProjectFile {
     /// Table `[project]`.
     pub project: Header,
@@ -90,7 +90,7 @@ pub struct Header {
 }
 
 /// Table `[structure]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StructureTable {
     /// Kind and its keys.
     #[serde(flatten)]
@@ -104,7 +104,7 @@ pub struct StructureTable {
 }
 
 /// Kinds of structure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Shape {
     /// Uniform beam.
@@ -150,7 +150,7 @@ pub struct PointsTable {
 }
 
 /// Table `[[source]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceTable {
     /// Law.
     pub law: Effect,
@@ -167,7 +167,7 @@ pub struct SourceTable {
 }
 
 /// Table `[[candidates]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CandidatesTable {
     /// Law.
     pub law: Effect,
@@ -266,7 +266,7 @@ pub enum BaseResponse {
 }
 
 /// Table `[[harmonics]]`.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HarmonicsTable {
     /// File of fitted coefficients, relative to the project.
     pub file: String,

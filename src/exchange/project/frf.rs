@@ -7,26 +7,8 @@ use super::reader::{Origin, Table};
 use crate::exchange::frf::{Form, FrfSource};
 use crate::measurement::frf::Selection;
 use dashpot_datafiles::Pairing;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
-
-const KEYS: [&str; 15] = [
-    "file",
-    "further_files",
-    "form",
-    "scale",
-    "averages",
-    "reciprocity",
-    "band",
-    "lines",
-    "use",
-    "dofs",
-    "reference_dofs",
-    "responses",
-    "references",
-    "step_hz",
-    "columns",
-];
 
 /// Lines that are used unless the project says otherwise: enough for many modes, few enough to stay fast.
 const USUAL_LINES: usize = 96;
@@ -36,7 +18,7 @@ const MOST_LINES: usize = 100_000;
 const MOST_AVERAGES: usize = 1_000_000;
 
 /// Table `[[frf]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FrfTable {
     /// Universal File, or another with complex values over a frequency; relative to the project.
     pub file: String,
@@ -68,7 +50,7 @@ pub struct FrfTable {
     /// Step of the frequencies from 0 Hz on, Hz, where the file does not say them.
     pub step_hz: Option<f64>,
     /// How the columns are parts of complex numbers two by two, where their names do not say it.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "word", deserialize_with = "pairing")]
     pub columns: Option<Pairing>,
     /// DOFs of the file, such as `12:+Z`, and their labels in the structure.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -112,7 +94,7 @@ pub(super) fn parse(root: &Table<'_>, lines: &mut Lines) -> Result<Vec<FrfTable>
 }
 
 fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
-    table.only(&KEYS)?;
+    table.only_in::<FrfTable>(&[])?;
     let scale = table.number("scale")?;
     if scale == Some(0.0) {
         let problem = TableProblem::OutOfRange { key: "scale".into(), value: "0".into(), range: "other than zero" };
@@ -140,6 +122,10 @@ fn one(table: &Table<'_>, file: String) -> Result<FrfTable, ProjectError> {
 #[expect(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "serde passes references to fields")]
 fn word<S: Serializer>(columns: &Option<Pairing>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(columns.map_or("", Pairing::word))
+}
+
+fn pairing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Pairing>, D::Error> {
+    Ok(Pairing::from_word(&String::deserialize(deserializer)?))
 }
 
 /// The first `[[frf]]` of a template, as TOML text and as it reads; its `file` may be left out. None where the template has

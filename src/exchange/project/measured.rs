@@ -6,9 +6,10 @@ use super::frf::{self, FrfTable};
 use super::reader::{Origin, Table};
 use super::{channel, modes, runs};
 use crate::exchange::mapping::ChannelTable;
+use serde::Deserialize;
 
 /// Measurements and how they are read.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 pub struct MeasurementTables {
     /// Tables `[[channel]]`.
     pub channel: Vec<ChannelTable>,
@@ -31,7 +32,7 @@ impl MeasurementTables {
         let origin = Origin { file, text };
         let document = origin.document()?;
         let root = Table::root(origin, document.get_ref());
-        root.only(&["channel", "run", "harmonics", "frf", "modes"])?;
+        root.only_in::<Self>(&[])?;
         let mut lines = Lines::default();
         Ok(Self {
             channel: channel::parse(&root, &mut lines)?,

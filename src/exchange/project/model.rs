@@ -47,7 +47,7 @@ pub(super) fn structure(
     };
     let parameters = with_all_nodes(parameters, &mut notes);
     let mut structure = parameters.build(lumped).map_err(wrong)?;
-    structure.set_origin((notes, turned), reduction, lumped);
+    structure.set_origin(notes, turned, reduction, lumped);
     Ok(structure)
 }
 

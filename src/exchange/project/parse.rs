@@ -19,23 +19,6 @@ use crate::structure::chain::ChainParameters;
 use crate::structure::component::ComponentParameters;
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 15] = [
-    "project",
-    "structure",
-    "source",
-    "candidates",
-    "sensor",
-    "ruled_out",
-    "channel",
-    "run",
-    "harmonics",
-    "frf",
-    "modes",
-    "base",
-    "analysis",
-    "simulate",
-    "report",
-];
 /// Keys of every `[structure]` with matrices; the others are those of its kind.
 const STRUCTURE: [&str; 3] = ["kind", "lumped_mass", "correction"];
 
@@ -57,7 +40,7 @@ impl ProjectFile {
         let root = Table::root(origin, document.get_ref());
         // The version first: a newer file may have keys that are not known here.
         let project = header(&root)?;
-        root.only(&TABLES)?;
+        root.only_in::<Self>(&[])?;
         let mut lines = Lines::default();
         let parsed = Self {
             project,

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 /// Table `[[ruled_out]]`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RuledOutTable {
     /// Law.
     pub law: Effect,
     /// DOFs; none for a law of the whole structure and for an error of a channel.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dofs: Vec<Label>,
     /// First and last beam element, from 1.
     pub elements: Option<[i64; 2]>,

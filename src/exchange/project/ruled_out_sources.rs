@@ -1,13 +1,20 @@
 //! Effects that are ruled out, at their places on the structure.
 
 use super::error::{ProjectError, TableProblem};
+use super::label::Label;
 use super::lines::At;
 use super::ruled_out::RuledOutTable;
 use super::sources::{at_place, channel, key_at_fault};
-use crate::effects::{Kind, Place, Source};
+use crate::effects::{Kind, Place, Source, WrittenPlace};
 use crate::structure::Structure;
 
 impl RuledOutTable {
+    /// The effect of a source where it acts.
+    pub fn of(source: &Source, structure: &Structure) -> Self {
+        let WrittenPlace { dofs, elements, channel } = source.place.written(structure);
+        Self { law: source.effect, dofs: dofs.into_iter().map(Label).collect(), elements, channel }
+    }
+
     /// The effect at its place on a structure; its parameters are typical ones and mean nothing.
     ///
     /// # Errors

@@ -116,7 +116,7 @@ fn part(table: &Table<'_>) -> Read<TimeSpan> {
 pub(super) fn harmonics(root: &Table<'_>, lines: &mut Lines) -> Read<Vec<HarmonicsTable>> {
     let mut files = Vec::new();
     for table in root.tables("harmonics", "[[harmonics]]")? {
-        table.only(&["file", "force", "response", "phase_of", "level", "session", "use", "set", "phases"])?;
+        table.only_in::<HarmonicsTable>(&[])?;
         let phases = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].map(Quantity::word);
         files.push(HarmonicsTable {
             file: table.need("file", "file = \"harmonics.csv\"", table.text("file")?)?,

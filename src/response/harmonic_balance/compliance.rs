@@ -9,7 +9,8 @@
 use super::error::ModelError;
 use super::modal_basis::{ModalBasis, modal_basis};
 use super::resonant::{Pattern, Resonant, damping, near};
-use crate::effects::{Basis, Kind, Leg, Source, place::Place};
+use crate::effects::basis::{Basis, add_along, multiply};
+use crate::effects::{Kind, Leg, Source, place::Place};
 use crate::structure::mode_damping::octaves;
 use crate::structure::{DampingOfMode, Structure, SystemMatrices};
 use dashpot_numerics::{Cholesky, ComplexLu};
@@ -88,18 +89,10 @@ impl LinearPart {
         self.structure.len()
     }
 
-    /// `factor B` as an n x n product with `x`, where `B` is the matrix on which the whole-structure law `source` acts at `omega`.
+    /// `factor B x`, where `B` is the matrix on which the whole-structure law `source` acts at `omega`.
     pub(crate) fn apply_whole(&self, source: &Source, factor: c64, omega: f64, x: &[c64]) -> Vec<c64> {
-        let own = self.whole.iter().find(|(s, _)| s.place == source.place && s.effect == source.effect);
         let Kind::Whole(law) = source.effect.kind() else { return vec![c64::new(0.0, 0.0); x.len()] };
-        if let Some((_, Some(own))) = own {
-            return multiply(own, factor, x);
-        }
-        let mut result = multiply(law.basis().of_system(self.matrices()), factor, x);
-        for mode in self.structure.damping_of_modes() {
-            add_along(&mode.pattern, factor * law.basis().more_of_at(mode, self.of_stated(omega)), x, &mut result);
-        }
-        result
+        law.basis().times(&self.structure, source.place.elements(), self.of_stated(omega), factor, x)
     }
 
     /// What laws of the whole structure add to the dynamic stiffness of the corrected damping of a mode, beyond what they give
@@ -352,26 +345,6 @@ impl Inverse {
         let loads: Vec<(usize, c64)> = force.iter().copied().enumerate().filter(|(_, f)| f.norm_sqr() > 0.0).collect();
         self.apply_at(&loads, result);
     }
-}
-
-/// Adds `factor v v^T x` to `result`.
-fn add_along(v: &[f64], factor: c64, x: &[c64], result: &mut [c64]) {
-    let along = v.iter().zip(x).fold(c64::new(0.0, 0.0), |sum, (v, x)| sum + *x * *v);
-    result.iter_mut().zip(v).for_each(|(r, v)| *r += factor * along * *v);
-}
-
-/// `factor B x`.
-fn multiply(matrix: &Mat<f64>, factor: c64, x: &[c64]) -> Vec<c64> {
-    let mut result = vec![c64::new(0.0, 0.0); matrix.nrows()];
-    for (j, &value) in x.iter().enumerate() {
-        let scaled = factor * value;
-        if scaled.norm_sqr() > 0.0 {
-            for (r, a) in result.iter_mut().zip(matrix.col_as_slice(j)) {
-                *r += scaled * *a;
-            }
-        }
-    }
-    result
 }
 
 /// Zero for a structure that is held; for one that floats, a shift of `K` by `M` far below its stiffness.

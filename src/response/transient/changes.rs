@@ -94,7 +94,8 @@ impl Changes {
         step: &Step,
         states: [&[f64]; 2],
         forces: &StepForces,
-        (rows, stride): (&mut [f64], usize),
+        rows: &mut [f64],
+        stride: usize,
     ) {
         let (width, columns) = (states[0].len(), self.columns);
         for ((z, s), g) in states.into_iter().zip([0.0, step.share()]).zip(&mut self.ends) {

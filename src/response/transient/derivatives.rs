@@ -92,7 +92,7 @@ impl Derivatives {
     }
 
     /// Tells element `l`, which sees `view`, that it has come to `d` in a step of `step` s.
-    pub(super) fn commit(&mut self, l: usize, (element, view): (&mut Element, &View), d: f64, step: f64) {
+    pub(super) fn commit(&mut self, l: usize, element: &mut Element, view: &View, d: f64, step: f64) {
         if !element.form.has_memory() {
             return;
         }
@@ -208,7 +208,7 @@ impl Derivatives {
         if piece.full {
             self.changes.over_full_step(piece.states[0], &forces, &mut self.states, self.stride);
         } else {
-            self.changes.over_piece(piece.step, piece.states, &forces, (&mut self.states, self.stride));
+            self.changes.over_piece(piece.step, piece.states, &forces, &mut self.states, self.stride);
         }
     }
 

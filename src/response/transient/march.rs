@@ -18,7 +18,7 @@ use super::hold::{Polynomial, shifted, value};
 use super::initial_memory::earlier_views;
 use super::step::Step;
 use super::system::{LinearChange, LinearSystem};
-use super::view::{Piece, Receptance, Sensitivity, View};
+use super::view::{Piece, Receptance, View};
 use dashpot_numerics::dot;
 
 /// Reversals that are located within one step.
@@ -57,20 +57,17 @@ struct Trial {
 }
 
 impl<'a> March<'a> {
-    /// From the state `z` in steps of `length` s, where samples are `sample` s apart, under `drives` drives.
+    /// From the state `z` with its `derivatives`, in steps like `step`.
     pub(super) fn new(
         system: &'a LinearSystem,
         views: &'a [View],
         mut elements: Vec<Element>,
-        (z, drives): (Vec<f64>, usize),
-        (sensitivities, changes): (Vec<Sensitivity>, &[LinearChange]),
-        [length, sample]: [f64; 2],
+        z: Vec<f64>,
+        mut derivatives: Derivatives,
+        step: Step,
     ) -> Self {
-        let step = Step::new(system, length, sample);
         let receptance = Receptance::new(views, &step);
         let side = views.iter().map(|view| sign(dot(&view.velocity, &z))).collect();
-        let changes = Changes::new(system, &step, changes, [elements.len(), drives]);
-        let mut derivatives = Derivatives::new(&elements, &sensitivities, changes, z.len());
         for (l, (element, view)) in elements.iter_mut().zip(views).enumerate() {
             if !element.form.has_memory() {
                 continue;
@@ -78,7 +75,7 @@ impl<'a> March<'a> {
             let (earlier, step) = earlier_views(system, view, &z);
             for (n, view) in earlier.iter().chain([view]).enumerate() {
                 let step = if n == 0 { f64::INFINITY } else { step };
-                derivatives.commit(l, (element, view), dot(&view.displacement, &z), step);
+                derivatives.commit(l, element, view, dot(&view.displacement, &z), step);
             }
         }
         let forces = vec![0.0; elements.len()];
@@ -276,7 +273,7 @@ impl<'a> March<'a> {
             if slipped && dot(&self.views[l].velocity, &self.z) * side[l] <= 0.0 {
                 self.side[l] = 0.0;
             }
-            self.derivatives.commit(l, (&mut self.elements[l], &self.views[l]), after[l], step.length);
+            self.derivatives.commit(l, &mut self.elements[l], &self.views[l], after[l], step.length);
         }
         if let Some(element) = turned {
             self.side[element] = 0.0;

@@ -1,6 +1,7 @@
 //! The model of a record: built once for a structure with its sources, predicted for any force and initial state.
 
 use super::assembly::{Nonlinear, assemble, is_linear, modal_stiffness, nonlinear, pattern_matrix};
+use super::changes::Changes;
 use super::derivatives::Derivatives;
 use super::element::{Element, Form};
 use super::error::TransientError;
@@ -8,6 +9,7 @@ use super::hold::Polynomial;
 use super::march::March;
 use super::reduction::Reduction;
 use super::setup::{SampledForces, TransientParameter, TransientResponse, TransientSetup};
+use super::step::Step;
 use super::system::{LinearChange, LinearSystem, Matrices};
 use super::view::{Sensitivity, View};
 use super::writer::{Seen, Sensor, Writer};
@@ -112,7 +114,7 @@ impl TransientModel {
         let first = segments[0].begin(forces.step);
         let lengths = segments[0].lengths(forces.step);
         let changes: Vec<LinearChange> = parameters.iter().filter_map(|p| self.change(*p)).collect();
-        let (mut march, mut writer) = self.start(initial, &first, (parameters, &changes), lengths);
+        let (mut march, mut writer) = self.start(initial, &first, parameters, &changes, lengths);
         let (count, every) = (self.sensors.len(), forces.every.max(1));
         let predicted = forces.samples.div_ceil(every);
         let mut channels = vec![Vec::with_capacity(predicted); count];
@@ -192,8 +194,9 @@ impl TransientModel {
         &self,
         initial: &[f64],
         drives: &[[f64; 2]],
-        (parameters, changes): (&[TransientParameter], &[LinearChange]),
-        steps: [f64; 2],
+        parameters: &[TransientParameter],
+        changes: &[LinearChange],
+        [length, sample]: [f64; 2],
     ) -> (March<'_>, Writer) {
         let state = self.modes_of(initial, drives);
         let element = |(source, _, form, law, p): &Nonlinear| Element::new(*source, *form, *law, p, parameters.len());
@@ -209,9 +212,11 @@ impl TransientModel {
             sensitivities.push(Sensitivity { state, own, changes_linear_part });
         }
         let widths = [elements.len(), self.kept(), parameters.len()];
-        let writer = Writer::new(&self.system, &self.sensors, widths, changes, steps);
-        let from = (state, drives.len());
-        (March::new(&self.system, &self.views, elements, from, (sensitivities, changes), steps), writer)
+        let writer = Writer::new(&self.system, &self.sensors, widths, changes, [length, sample]);
+        let step = Step::new(&self.system, length, sample);
+        let changes = Changes::new(&self.system, &step, changes, [elements.len(), drives.len()]);
+        let derivatives = Derivatives::new(&elements, &sensitivities, changes, state.len());
+        (March::new(&self.system, &self.views, elements, state, derivatives, step), writer)
     }
 
     /// How the initial state, of `count` entries under the `drives`, changes with a parameter.
@@ -277,10 +282,10 @@ impl TransientModel {
         let March { elements, derivatives: by, side, z, .. } = march;
         for l in 0..elements.len() {
             let seen = writer.seen[l];
-            self.force_change((l, &mut elements[l]), by, (seen, side[l]), writer.force_row(l));
+            self.force_change(l, &mut elements[l], by, seen, side[l], writer.force_row(l));
         }
         for (c, sensor) in self.sensors.iter().enumerate() {
-            writer.gather(c, sensor, by, (z, inputs));
+            writer.gather(c, sensor, by, z, inputs);
         }
         writer.write_gathered(&by.order, derivatives, false);
     }
@@ -288,9 +293,11 @@ impl TransientModel {
     /// Derivatives of the present force of element `l`.
     fn force_change(
         &self,
-        (l, element): (usize, &mut Element),
+        l: usize,
+        element: &mut Element,
         by: &mut Derivatives,
-        (seen, side): (Seen, f64),
+        seen: Seen,
+        side: f64,
         row: &mut [f64],
     ) {
         if element.form == Form::Friction && side == 0.0 {

@@ -113,12 +113,12 @@ impl Writer {
     }
 
     /// Gathers the derivatives of what sensor `c` shows of the state `z` under `inputs`.
-    pub(super) fn gather(&mut self, c: usize, sensor: &Sensor, by: &Derivatives, (z, inputs): (&[f64], &[f64])) {
+    pub(super) fn gather(&mut self, c: usize, sensor: &Sensor, by: &Derivatives, z: &[f64], inputs: &[f64]) {
         let mut row = std::mem::take(&mut self.row);
         if sensor.drive.is_some() {
             row.fill(0.0);
         } else {
-            self.fill(&mut row, (c, sensor), by, (z, inputs));
+            self.fill(&mut row, c, sensor, by, z, inputs);
         }
         self.gathered[c].extend_from_slice(&row);
         self.row = row;
@@ -139,13 +139,7 @@ impl Writer {
         }
     }
 
-    fn fill(
-        &mut self,
-        row: &mut [f64],
-        (c, sensor): (usize, &Sensor),
-        by: &Derivatives,
-        (z, inputs): (&[f64], &[f64]),
-    ) {
+    fn fill(&mut self, row: &mut [f64], c: usize, sensor: &Sensor, by: &Derivatives, z: &[f64], inputs: &[f64]) {
         combine_rows(&sensor.functional.row, &by.states, row);
         if !self.changes[c].is_empty() {
             self.state.clear();

@@ -102,7 +102,7 @@ impl Missing {
         let plan = self.state.plan(&self.state.folder().join("project.toml")).map_err(|e| e.to_string())?;
         let mut fitted = Vec::new();
         let count = self.runs.len() + self.unsteady.len() + self.harmonics.len();
-        let unsteady = unsteady(&plan, &self.unsteady, (self.runs.len(), count), control)?;
+        let unsteady = unsteady(&plan, &self.unsteady, self.runs.len(), count, control)?;
         for (done, (index, key)) in self.runs.into_iter().enumerate() {
             control.check().map_err(|e| e.to_string())?;
             let piece = control.piece(done, count);
@@ -123,7 +123,8 @@ impl Missing {
 fn unsteady(
     plan: &Plan,
     missing: &[(usize, Key)],
-    (first, count): (usize, usize),
+    first: usize,
+    count: usize,
     control: &Control,
 ) -> Result<Vec<(Key, TransientRun)>, String> {
     let read = |(done, (index, key)): (usize, &(usize, Key))| {

@@ -68,7 +68,8 @@ pub(super) fn decay_job(
 pub(super) fn record_job(
     p: &Arc<Project>,
     found: Arc<Vec<OneRecord>>,
-    (index, channel): (usize, Option<String>),
+    index: usize,
+    channel: Option<String>,
 ) -> impl FnOnce(&Control) -> Result<RecordResidual, String> + use<> {
     let p = Arc::clone(p);
     move |_| {

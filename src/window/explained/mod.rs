@@ -229,7 +229,8 @@ impl Explained {
     fn records_of(&mut self, ctx: &Context, p: &Arc<Project>, tried: Tried, shown: Option<&Shown>) {
         self.decays.want(ctx, &tried, || decay_job(p, tried.1.as_ref()));
         if let (Some(Ok(found)), Some(shown)) = (self.decays.get(&tried), shown) {
-            self.records.want(ctx, &(tried, shown.clone()), || record_job(p, Arc::clone(found), shown.clone()));
+            self.records
+                .want(ctx, &(tried, shown.clone()), || record_job(p, Arc::clone(found), shown.0, shown.1.clone()));
         }
     }
 

@@ -120,7 +120,7 @@ impl Behavior<Pane> for Panes<'_> {
             Some(pane @ (Pane::ErrorMap | Pane::Cell)) => {
                 let records = self.opened.document.project.runs.is_empty();
                 let place = usize::from(*pane == Pane::Cell);
-                in_bar(ui, (place, pane.title()), &mut self.opened.view.explain, records);
+                in_bar(ui, place, pane.title(), &mut self.opened.view.explain, records);
             }
             _ => {}
         }

@@ -4,6 +4,7 @@ use crate::effects::{Effect, Parameter, Place, Source};
 use crate::response::portrait::Setup;
 use crate::structure::StructureError;
 use crate::structure::chain::ChainParameters;
+use std::ops::RangeInclusive;
 
 /// A small structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,13 +132,13 @@ impl Lesson {
     }
 
     /// Least and greatest value of a parameter on its slider, and whether the slider is logarithmic.
-    pub fn range(effect: Effect, k: usize, parameter: &Parameter) -> (f64, f64, bool) {
+    pub fn range(effect: Effect, k: usize, parameter: &Parameter) -> (RangeInclusive<f64>, bool) {
         if parameter.least.is_finite() && parameter.greatest.is_finite() {
             let margin = 0.02 * (parameter.greatest - parameter.least);
-            return (parameter.least + margin, parameter.greatest - margin, false);
+            return (parameter.least + margin..=parameter.greatest - margin, false);
         }
         let value = effect.description().example.get(k).copied().unwrap_or(1.0);
-        (0.02 * value, 50.0 * value, true)
+        (0.02 * value..=50.0 * value, true)
     }
 
     /// What is to be computed.
@@ -169,9 +170,9 @@ mod tests {
             let lesson = Lesson::new(system, effect);
             assert_eq!(lesson.parameters.len(), effect.parameters().len(), "{effect}");
             for (k, p) in effect.parameters().iter().enumerate() {
-                let (low, high, _) = Lesson::range(effect, k, p);
-                assert!((low..=high).contains(&lesson.parameters[k]), "{effect} {}", p.name);
-                assert!(p.allows(low) && p.allows(high), "{effect} {}", p.name);
+                let (range, _) = Lesson::range(effect, k, p);
+                assert!(range.contains(&lesson.parameters[k]), "{effect} {}", p.name);
+                assert!(p.allows(*range.start()) && p.allows(*range.end()), "{effect} {}", p.name);
             }
             let setup = lesson.setup().expect("a structure");
             let found = portrait(&setup, &Control::unattended()).expect("a portrait");

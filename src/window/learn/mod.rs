@@ -18,6 +18,7 @@ use crate::window::appearance::widgets::UiExt;
 use crate::window::language::{numbers, t, tr};
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Slider, Ui, vec2};
 use lesson::{Lesson, System};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Width of the choices at the left.
@@ -63,15 +64,15 @@ fn choices(ui: &mut Ui, lesson: &mut Lesson, asks: &mut Vec<Ask>) {
     ui.add_space(space::M);
     ui.title("Parameters of the law", "");
     for (k, parameter) in lesson.effect.parameters().iter().enumerate() {
-        let (low, high, log) = Lesson::range(lesson.effect, k, parameter);
-        slider(ui, &words::parameter(parameter.name), &mut lesson.parameters[k], (low, high, log), parameter.unit);
+        let (range, logarithmic) = Lesson::range(lesson.effect, k, parameter);
+        slider(ui, &words::parameter(parameter.name), &mut lesson.parameters[k], range, logarithmic, parameter.unit);
     }
     ui.add_space(space::M);
     ui.title("Test", "");
-    slider(ui, "Force amplitude", &mut lesson.force, (0.05, 50.0, true), "N");
-    slider(ui, "Frequency of the loops", &mut lesson.frequency_hz, (0.5, 10.0, true), "Hz");
-    slider(ui, "Released from", &mut lesson.displacement, (1e-4, 0.1, true), "m");
-    slider(ui, "Dashpot at every mass", &mut lesson.background, (0.0, 20.0, false), "N s/m");
+    slider(ui, "Force amplitude", &mut lesson.force, 0.05..=50.0, true, "N");
+    slider(ui, "Frequency of the loops", &mut lesson.frequency_hz, 0.5..=10.0, true, "Hz");
+    slider(ui, "Released from", &mut lesson.displacement, 1e-4..=0.1, true, "m");
+    slider(ui, "Dashpot at every mass", &mut lesson.background, 0.0..=20.0, false, "N s/m");
     ui.add_space(space::M);
     ui.horizontal(|ui| {
         if ui.button(t!("Start values")).on_hover_text(t!("Puts all values back.")).clicked() {
@@ -83,13 +84,13 @@ fn choices(ui: &mut Ui, lesson: &mut Lesson, asks: &mut Vec<Ask>) {
     });
 }
 
-fn slider(ui: &mut Ui, name: &str, value: &mut f64, (low, high, log): (f64, f64, bool), unit: &str) {
+fn slider(ui: &mut Ui, name: &str, value: &mut f64, range: RangeInclusive<f64>, logarithmic: bool, unit: &str) {
     let label = ui.hint(name);
     let unit = format::pretty_unit(unit);
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     ui.spacing_mut().slider_width = CHOICES - 140.0;
-    let slider = Slider::new(value, low..=high)
-        .logarithmic(log)
+    let slider = Slider::new(value, range)
+        .logarithmic(logarithmic)
         .suffix(suffix)
         .custom_formatter(|v, _| tr(format::significant(v, 3)))
         .custom_parser(numbers::typed);

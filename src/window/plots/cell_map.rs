@@ -151,14 +151,14 @@ impl<'a> CellMap<'a> {
         let lines = cursors.words(self.figure, Some(&Reading { axis: height, value: &read }));
         let marked: Vec<Pos2> =
             cursors.places().iter().filter_map(|at| self.seen(area, *at)).map(|(at, _)| at).collect();
-        self.read_out(ui, &lines, (area, response.rect), &marked);
+        self.read_out(ui, &lines, area, response.rect, &marked);
         ui.data_mut(|d| d.insert_temp(id(self.name), self.kept));
         self.zoom.end(ui, &[(response, self.figure, self.kept.sight)]);
     }
 
     /// Shows what is read where it covers no cell: under a table where the `room` of its pane is left, beside it, or in the line above it;
     /// else in a corner of the map.
-    fn read_out(&self, ui: &Ui, lines: &[String], (area, room): (Rect, Rect), marked: &[Pos2]) {
+    fn read_out(&self, ui: &Ui, lines: &[String], area: Rect, room: Rect, marked: &[Pos2]) {
         let (painter, palette, sight) = (ui.painter(), ui.palette(), ui.clip_rect());
         let size = cursors::size(painter, lines);
         if !self.kept.field.down {

@@ -63,14 +63,14 @@ impl AxesCorner {
 pub(super) fn with_unit(
     label: String,
     unit: &str,
-    place: (f64, f64),
+    value: f64,
+    step: f64,
     range: &RangeInclusive<f64>,
     breadth: f64,
 ) -> String {
     if unit.is_empty() || label.is_empty() {
         return label;
     }
-    let (value, step) = place;
     let reach = HALF_LETTER * (label.chars().count() + 1 + unit.chars().count()) as f64;
     let fits = |at: f64| share(at, range) * breadth + reach <= breadth + ASIDE;
     if fits(value) && !fits(value + step) { format!("{label} {unit}") } else { label }
@@ -113,12 +113,12 @@ mod tests {
     #[test]
     fn the_last_number_with_room_has_the_unit() {
         let range = 11.9..=14.4;
-        let shown = |value: f64| with_unit(format!("{value:.1}"), "Hz", (value, 0.5), &range, 320.0);
+        let shown = |value: f64| with_unit(format!("{value:.1}"), "Hz", value, 0.5, &range, 320.0);
         assert_eq!([12.0, 13.5, 14.0].map(shown), ["12.0", "13.5", "14.0 Hz"]);
         // The last one would be cut: that before it has the unit.
         let range = 11.9..=14.05;
-        let shown = |value: f64| with_unit(format!("{value:.1}"), "Hz", (value, 0.5), &range, 320.0);
+        let shown = |value: f64| with_unit(format!("{value:.1}"), "Hz", value, 0.5, &range, 320.0);
         assert_eq!([13.0, 13.5, 14.0].map(shown), ["13.0", "13.5 Hz", "14.0"]);
-        assert_eq!(with_unit("14.0".into(), "", (14.0, 0.5), &range, 320.0), "14.0");
+        assert_eq!(with_unit("14.0".into(), "", 14.0, 0.5, &range, 320.0), "14.0");
     }
 }

@@ -86,7 +86,7 @@ impl Stack<'_> {
             // The axis of x takes room from the plots in proportion, not from the last one alone.
             let own = share * (height - below) + ruler;
             let place = Place { id: &format!("{} {k}", self.id), height: own, group, ruler };
-            let out = place.draw(ui, &figure, (&zoom, k));
+            let out = place.draw(ui, &figure, &zoom, k);
             panels.push(Panel { figure, bounds: sight(&out) });
             responses.push(out.response);
         }
@@ -169,7 +169,7 @@ impl Place<'_> {
     /// Shows a plot that stands alone.
     pub(crate) fn show(&self, ui: &mut Ui, figure: &Figure) -> PlotResponse<()> {
         let zoom = Zoom::begin(ui.ctx(), self.id);
-        let out = self.draw(ui, figure, (&zoom, 0));
+        let out = self.draw(ui, figure, &zoom, 0);
         zoom.end(ui, &[(&out.response, figure, sight(&out))]);
         out
     }
@@ -191,7 +191,7 @@ impl Place<'_> {
             .label_spacing(spacing)
             .formatter(move |mark, range| {
                 let label = along_x.across(tr(ticks::label(&x, own(mark))), mark.value, range);
-                with_unit(label, &unit, (mark.value, mark.step_size), range, breadth)
+                with_unit(label, &unit, mark.value, mark.step_size, range, breadth)
             });
         let y_axis = axis(AxisHints::new_y(), palette, &y_label)
             .placement(HPlacement::Left)
@@ -203,7 +203,7 @@ impl Place<'_> {
     }
 
     /// Draws a plot, the one of that number in its history of zooms.
-    fn draw(&self, ui: &mut Ui, figure: &Figure, (zoom, number): (&Zoom, usize)) -> PlotResponse<()> {
+    fn draw(&self, ui: &mut Ui, figure: &Figure, zoom: &Zoom, number: usize) -> PlotResponse<()> {
         let palette = ui.palette();
         let (x, y) = (figure.x.clone(), figure.y.clone());
         let clear = self.height - self.ruler;

@@ -95,7 +95,7 @@ pub(crate) fn runs(ui: &mut Ui, p: &Project, view: &mut View, asks: &mut Vec<Ask
     let rows = order.rows(p, distortion);
     order.field(ui, p, rows.len());
     let mut chosen = view.run;
-    table(ui, p, (&rows, &mut order), &mut chosen, asks);
+    table(ui, p, &rows, &mut order, &mut chosen, asks);
     (view.run, view.runs) = (chosen, order);
 }
 
@@ -264,7 +264,7 @@ fn channels(ui: &mut Ui, run: &Run, channel: &mut usize, every: &mut bool) {
     });
 }
 
-fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen: &mut usize, asks: &mut Vec<Ask>) {
+fn table(ui: &mut Ui, p: &Project, rows: &[usize], order: &mut Order, chosen: &mut usize, asks: &mut Vec<Ask>) {
     ui.style_mut().interaction.selectable_labels = false;
     let levels = p.runs.iter().any(|r| r.level.is_some());
     ui.spacing_mut().item_spacing.x = space::XS;
@@ -308,7 +308,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
             body.rows(space::ROW, rows.len(), |mut row| {
                 let index = rows[row.index()];
                 row.set_selected(index == selected);
-                cells(&mut row, &p.runs[index], (index, shown, folder), asks);
+                cells(&mut row, &p.runs[index], index, shown, folder, asks);
                 if row.response().clicked() {
                     *chosen = index;
                 }
@@ -316,7 +316,7 @@ fn table(ui: &mut Ui, p: &Project, (rows, order): (&[usize], &mut Order), chosen
         });
 }
 
-fn cells(row: &mut TableRow<'_, '_>, run: &Run, (index, shown, folder): (usize, Shown, usize), asks: &mut Vec<Ask>) {
+fn cells(row: &mut TableRow<'_, '_>, run: &Run, index: usize, shown: Shown, folder: usize, asks: &mut Vec<Ask>) {
     row.col(|ui| {
         let mut used = run.enabled;
         let response = ui.checkbox(&mut used, "");

@@ -178,7 +178,7 @@ fn table(ui: &mut Ui, p: &Project, outcome: &Outcome, current: usize, chosen: &m
             body.heterogeneous_rows(heights.into_iter(), |mut row| {
                 let k = row.index();
                 row.set_selected(k == current);
-                cells(&mut row, outcome, (k, &lines[k]), &columns);
+                cells(&mut row, outcome, k, &lines[k], &columns);
                 if row.response().clicked() {
                     *chosen = Some(k);
                 }
@@ -210,7 +210,8 @@ fn step_words(ui: &Ui, p: &Project, step: &SelectionStep, room: f32) -> [Arc<Gal
 fn cells(
     row: &mut TableRow<'_, '_>,
     outcome: &Outcome,
-    (k, lines): (usize, &[Arc<Galley>; 2]),
+    k: usize,
+    lines: &[Arc<Galley>; 2],
     columns: &[(&str, f32); 3],
 ) {
     let step = &outcome.steps[k];

@@ -83,11 +83,11 @@ impl Walk<'_> {
     fn chosen(&mut self, count: u64, wanted: &Values<'_>, scalar: Scalar) -> Read<(Vec<f64>, u64)> {
         let width = scalar.size() as u64;
         match wanted {
-            Values::All => Ok((strided(self.input, (scalar, self.big), 1, count)?, count)),
+            Values::All => Ok((strided(self.input, scalar, self.big, 1, count)?, count)),
             Values::Of(Part { cut, channel }) => {
                 let first = cut.offset(*channel);
                 self.input.skip(first * width)?;
-                let values = strided(self.input, (scalar, self.big), cut.stride, cut.count)?;
+                let values = strided(self.input, scalar, self.big, cut.stride, cut.count)?;
                 Ok((values, first + (cut.count - 1) * cut.stride + 1))
             }
             Values::At(places) => {

@@ -184,7 +184,7 @@ impl Arrays for V4 {
         let read = || {
             let mut file = File::open(&self.path)?;
             file.seek(SeekFrom::Start(header.data + cut.offset(channel) * header.scalar.size() as u64))?;
-            strided(&mut file, (header.scalar, header.big), cut.stride, cut.count).map(Flat::real)
+            strided(&mut file, header.scalar, header.big, cut.stride, cut.count).map(Flat::real)
         };
         Some(read())
     }

@@ -86,7 +86,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
     let axis_values = axis.map(|(at, _)| block.columns[at].re.clone());
     let (mut columns, step) = (Columns::default(), axis_values.as_deref().and_then(even_step));
     if let Some((at, _)) = axis {
-        name_axis(&mut set, &header, (at, &block.columns[at]), step);
+        name_axis(&mut set, &header, at, &block.columns[at], step);
     }
     for (i, numbers) in block.columns.into_iter().enumerate() {
         if block.texts.contains(&i) || numbers.re.is_empty() && number::number(&header.names[i], false).is_some() {
@@ -139,7 +139,7 @@ fn one(name: String, mut block: Block) -> (Set, Columns) {
 }
 
 /// Gives a set the unit of its axis, column number `at`, whose values are `step` apart, and says what is assumed of it.
-fn name_axis(set: &mut Set, header: &header::Header, (at, column): (usize, &Numbers), step: Option<f64>) {
+fn name_axis(set: &mut Set, header: &header::Header, at: usize, column: &Numbers, step: Option<f64>) {
     set.axis_unit = axis_unit(header, at, set.kind, column.clock);
     if set.kind == Kind::Time && header.units[at].is_empty() && !column.clock {
         let counted = column.re.first().copied().and_then(unit_since_1970);

@@ -47,9 +47,11 @@ pub(super) fn number(value: [f64; 2], complex: bool) -> Number {
 /// Adds the channels of an array to a set: all of them, or those of `chosen` (number of samples, channels as
 /// [`super::Shape::cut`] counts them).
 pub(super) fn add(
-    (set, places): (&mut Set, &mut Vec<Place>),
+    set: &mut Set,
+    places: &mut Vec<Place>,
     columns: &Columns<'_>,
-    (context, axis): (Context, Option<&Abscissa>),
+    context: Context,
+    axis: Option<&Abscissa>,
     labels: &Labels,
     chosen: Option<(u64, &[u64])>,
 ) {

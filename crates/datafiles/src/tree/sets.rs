@@ -31,8 +31,17 @@ pub(crate) fn sets(
     arrays: &dyn Arrays,
 ) -> Read<(Vec<Set>, Vec<Vec<Place>>)> {
     let mut made = Made { arrays, sets: Vec::new(), places: Vec::new() };
-    made.group("", entries, attributes, (Context::default(), None), 0)?;
+    made.group(Group { path: "", entries, attributes }, Context::default(), None, 0)?;
     Ok((made.sets, made.places))
+}
+
+/// A group of a tree as it is read.
+#[derive(Clone, Copy)]
+struct Group<'a> {
+    /// Names of the groups above and of its own.
+    path: &'a str,
+    entries: &'a [Entry],
+    attributes: &'a [(String, String)],
 }
 
 struct Made<'a> {
@@ -42,26 +51,22 @@ struct Made<'a> {
 }
 
 impl Made<'_> {
-    fn group(
-        &mut self,
-        path: &str,
-        entries: &[Entry],
-        attributes: &[(String, String)],
-        above: (Context, Option<&Abscissa>),
-        depth: usize,
-    ) -> Read<()> {
-        if self.signal(path, entries) {
+    /// Reads a group and those in it; `above` and `axis` are those of the group above.
+    fn group(&mut self, group: Group<'_>, above: Context, axis: Option<&Abscissa>, depth: usize) -> Read<()> {
+        let Group { path, attributes, .. } = group;
+        if self.signal(path, group.entries) {
             return Ok(());
         }
-        let entries = &with_headers(entries)[..];
-        let context = above.0.within(entries, attributes);
+        let entries = &with_headers(group.entries)[..];
+        let context = above.within(entries, attributes);
         let own = self.abscissa(entries)?;
-        let handed = above.1.filter(|axis| context == above.0 && is_of(axis, entries));
+        let outer = axis.filter(|_| context == above);
+        let handed = outer.filter(|axis| is_of(axis, entries));
         let axis = own.as_ref().or(handed);
         let labels = Labels::of(entries, attributes);
-        self.set(path, entries, attributes, context, axis, &labels)?;
+        self.set(Group { entries, ..group }, context, axis, &labels)?;
         let below = own.map(|axis| Abscissa { entry: None, ..axis });
-        let below = below.as_ref().or(above.1.filter(|_| context == above.0));
+        let below = below.as_ref().or(outer);
         for entry in entries {
             if let Node::Group(inner) = &entry.node
                 && depth < DEEPEST
@@ -70,22 +75,16 @@ impl Made<'_> {
                 let named = labels.named_cells(inner);
                 let inner = named.as_deref().unwrap_or(inner);
                 let handed = with_lists_above(&entry.attributes, attributes);
-                self.group(&name, inner, &handed, (context, below), depth + 1)?;
+                let inner = Group { path: &name, entries: inner, attributes: &handed };
+                self.group(inner, context, below, depth + 1)?;
             }
         }
         Ok(())
     }
 
     /// The arrays of a group as a set, square ones as sets of their own.
-    fn set(
-        &mut self,
-        path: &str,
-        entries: &[Entry],
-        attributes: &[(String, String)],
-        context: Context,
-        axis: Option<&Abscissa>,
-        labels: &Labels,
-    ) -> Read<()> {
+    fn set(&mut self, group: Group<'_>, context: Context, axis: Option<&Abscissa>, labels: &Labels) -> Read<()> {
+        let Group { path, entries, attributes } = group;
         let mut set = Set::new(path, Kind::Table);
         let (mut places, times) = (Vec::new(), OwnTimes::among(entries, self.arrays)?);
         let over_time = axis.is_none_or(|axis| axis.kind == Kind::Time);
@@ -103,8 +102,9 @@ impl Made<'_> {
                         if !is_axis && tests.as_ref().is_some_and(|tests| tests.takes(entry)) {
                             continue;
                         }
-                        let over = if is_axis { (Context::default(), None) } else { (context, axis) };
-                        columns::add((&mut set, &mut places), &Columns::of(entry, array), over, labels, None);
+                        let (context, axis) = if is_axis { (Context::default(), None) } else { (context, axis) };
+                        let columns = Columns::of(entry, array);
+                        columns::add(&mut set, &mut places, &columns, context, axis, labels, None);
                     }
                 }
                 Node::Text(texts) => note(&mut set, format!("{}: {}", entry.name, texts.join(", "))),
@@ -133,23 +133,25 @@ impl Made<'_> {
             self.sets.push(set);
             self.places.push(places);
         }
-        self.tests((path, entries, attributes), (context, axis), labels, &tests, notes);
+        self.tests(group, context, axis, labels, &tests, notes);
         Ok(())
     }
 
     /// Every test of arrays of three and more extents as a set; `notes` are those of the group.
     fn tests(
         &mut self,
-        (path, entries, attributes): (&str, &[Entry], &[(String, String)]),
-        over: (Context, Option<&Abscissa>),
+        group: Group<'_>,
+        context: Context,
+        axis: Option<&Abscissa>,
         labels: &Labels,
         tests: &Repeated,
         mut notes: Vec<Note>,
     ) {
+        let Group { path, entries, attributes } = group;
         let taken = entries
             .iter()
             .enumerate()
-            .filter(|(i, entry)| tests.takes(entry) && over.1.is_none_or(|axis| axis.entry != Some(*i)));
+            .filter(|(i, entry)| tests.takes(entry) && axis.is_none_or(|axis| axis.entry != Some(*i)));
         let arrays: Vec<Columns<'_>> = taken
             .filter_map(|(_, entry)| match &entry.node {
                 Node::Array(array) => Some(Columns::of(entry, array)),
@@ -164,9 +166,10 @@ impl Made<'_> {
             let mut places = Vec::new();
             for columns in &arrays {
                 let chosen = tests.channels(columns.array, test);
-                columns::add((&mut set, &mut places), columns, over, labels, Some((tests.samples(), &chosen)));
+                let chosen = Some((tests.samples(), &chosen[..]));
+                columns::add(&mut set, &mut places, columns, context, axis, labels, chosen);
             }
-            finish(&mut set, entries, attributes, over.1);
+            finish(&mut set, entries, attributes, axis);
             self.sets.push(set);
             self.places.push(places);
         }

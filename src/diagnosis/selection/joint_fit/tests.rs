@@ -112,7 +112,7 @@ fn the_jacobian_is_that_of_the_residual_in_effects_updating_parameters_and_shift
 fn effect_model_and_drift_of_the_runs_are_found_together() {
     with_base(|reference| {
         let start = Source { parameters: vec![3e6], ..hidden() };
-        let fit = reference.joint_fit((&[start], &Vec::new()), &FINAL, 30, f64::INFINITY).unwrap();
+        let fit = reference.joint_fit(&[start], &Vec::new(), &FINAL, 30, f64::INFINITY).unwrap();
         let size = fit.effects[0].parameters[0];
         assert!((size / 4e6 - 1.0).abs() < 0.02, "{size}");
         // What is common to all runs is the model's; the prior draws the rest to nothing, each run as far as it is not seen.

@@ -1,6 +1,6 @@
-//! Valleys that bend, bounds, what is hopeless, what is left of the prior.
+//! Valleys that bend, bounds, what stays above what is of interest, what is left of the prior.
 
-use super::{Descent, Residual, descend, is_hopeless};
+use super::{Descent, Residual, descend, stays_above};
 use faer::Mat;
 
 /// Rosenbrock's valley, ten times as deep: `100 (y - x^2)` and `10 (1 - x)`.
@@ -65,12 +65,12 @@ fn the_volume_that_is_left_is_that_of_what_the_data_know() {
 }
 
 /// `x` and a part of the residual that nothing changes, where what stays above a bound is of no interest.
-struct Hopeless {
+struct Bound {
     most: f64,
     residuals: usize,
 }
 
-impl Residual for Hopeless {
+impl Residual for Bound {
     type Error = std::convert::Infallible;
 
     fn residual(&mut self, at: &[f64]) -> Result<Vec<f64>, Self::Error> {
@@ -89,16 +89,16 @@ impl Residual for Hopeless {
 
 #[test]
 fn a_descent_that_would_stay_above_what_is_of_interest_is_not_begun() {
-    let mut hopeless = Hopeless { most: 5000.0, residuals: 0 };
-    let Ok(descent) = descend(&mut hopeless, &[0.0], 20);
-    assert_eq!((descent.theta[0], hopeless.residuals), (0.0, 1));
-    let mut promising = Hopeless { most: 10_500.0, residuals: 0 };
-    let Ok(descent) = descend(&mut promising, &[0.0], 20);
+    let mut above = Bound { most: 5000.0, residuals: 0 };
+    let Ok(descent) = descend(&mut above, &[0.0], 20);
+    assert_eq!((descent.theta[0], above.residuals), (0.0, 1));
+    let mut below = Bound { most: 10_500.0, residuals: 0 };
+    let Ok(descent) = descend(&mut below, &[0.0], 20);
     assert!(descent.chi_square < 10_100.0, "{descent:?}");
-    assert!(is_hopeless(100.0, 20.0, 50.0) && !is_hopeless(100.0, 30.0, 50.0));
+    assert!(stays_above(100.0, 20.0, 50.0) && !stays_above(100.0, 30.0, 50.0));
 }
 
-/// A residual so rough that no step lowers it, whatever its derivative promises.
+/// A residual so rough that no step lowers it, whatever its derivative predicts.
 struct Rough(usize);
 
 impl Residual for Rough {
@@ -114,9 +114,9 @@ impl Residual for Rough {
     }
 }
 
-/// A damped step that promises less than counts is not tried: of the dozen up to the firmest there are a few.
+/// A damped step that is predicted to bring less than counts is not tried: of the dozen up to the firmest there are a few.
 #[test]
-fn steps_that_promise_nothing_are_not_tried() {
+fn steps_that_are_predicted_to_bring_nothing_are_not_tried() {
     let mut rough = Rough(0);
     let Ok(descent) = descend(&mut rough, &[0.0], 20);
     assert_eq!(descent.theta[0], 0.0);

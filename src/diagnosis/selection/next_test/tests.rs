@@ -56,14 +56,14 @@ fn number_after(text: &str, phrase: &str) -> f64 {
 
 #[test]
 fn two_dashpots_are_told_apart_where_their_responses_differ_most() {
-    let rival = 1.1 * DASHPOT;
+    let other = 1.1 * DASHPOT;
     let separation = |w: f64| {
-        let (x, y) = (response(DASHPOT, w), response(rival, w));
+        let (x, y) = (response(DASHPOT, w), response(other, w));
         (x - y).norm() / (2.0_f64.sqrt() * NOISE * x.norm().max(y.norm()))
     };
     let best = frequencies().into_iter().max_by(|a, b| separation(*a).total_cmp(&separation(*b))).unwrap();
     with_reference(|reference| {
-        let test = next_test(reference, &[dashpot(DASHPOT)], &[dashpot(rival)]).unwrap().unwrap();
+        let test = next_test(reference, &[dashpot(DASHPOT)], &[dashpot(other)]).unwrap().unwrap();
         assert!((test.frequency_hz * TAU / best - 1.0).abs() < 1e-9, "{} for {best}", test.frequency_hz * TAU);
         assert_eq!((test.kind, test.force_dof), (TestKind::Steady, 0));
         let told = number_after(&test.why, "differ there by");

@@ -6,9 +6,10 @@ use super::scene::Scene;
 use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::updating::correction::Correction;
 use crate::effects::{Effect, Place, Source};
+use crate::exchange::project::ruled_out::RuledOutTable;
 use crate::identify::Outcome;
 use crate::session::adoption::Adoption;
-use crate::session::{Command, EffectAt, Refusal, identified};
+use crate::session::{Command, Refusal, identified};
 use crate::window::background::cache::Cached;
 use crate::window::background::derived::Derived;
 use crate::window::document::Document;
@@ -98,13 +99,13 @@ fn add(scene: &Scene<'_>, source: &Source) -> Result<Change, String> {
 
 /// Rules an effect out at its place; the search for others follows by itself.
 fn rule_out(document: &Document, source: &Source) -> Change {
-    let command = Command::RuleOut(EffectAt::of(source, &document.project.structure));
+    let command = Command::RuleOut(RuledOutTable::of(source, &document.project.structure));
     Change::new(Edit::Do(command), &format!("Ruled out: {}.", named(document, source)))
 }
 
 /// Lets an effect that was ruled out be searched for again.
 fn allow(document: &Document, source: &Source) -> Change {
-    let command = Command::Allow(EffectAt::of(source, &document.project.structure));
+    let command = Command::Allow(RuledOutTable::of(source, &document.project.structure));
     Change::new(Edit::Do(command), &format!("Allowed again: {}.", named(document, source)))
 }
 
@@ -119,8 +120,8 @@ fn correct_sensor(scene: &Scene<'_>, channel: &str, [gain, delay]: [f64; 2]) -> 
 
 /// What the identification found becomes known.
 fn take_over(scene: &Scene<'_>, outcome: Option<Cached<Outcome>>) -> Result<Change, String> {
-    let found: Vec<(usize, f64)> = match outcome {
-        Some(Ok(outcome)) => identified::found(&scene.document.project.sources, &outcome).collect(),
+    let found = match outcome {
+        Some(Ok(outcome)) => identified::found(&scene.document.project.sources, &outcome),
         Some(Err(error)) => return Err(format!("Nothing was identified: {error}")),
         None => return Err("Identification is still running; ask again when it has ended.".to_owned()),
     };

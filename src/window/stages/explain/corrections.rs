@@ -148,19 +148,19 @@ fn model(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, asks: &mut Vec<A
     let telling = findings::telling(&diagnosis.corrections, MOST);
     let is_telling = |c: &Correction| telling.iter().any(|t| std::ptr::eq(*t, c));
     let all = || diagnosis.corrections.iter().enumerate();
-    all().filter(|(_, c)| is_telling(c)).for_each(|(k, c)| correction(ui, scene, (k, c), asks));
+    all().filter(|(_, c)| is_telling(c)).for_each(|(k, c)| correction(ui, scene, k, c, asks));
     let others = diagnosis.corrections.len() - telling.len();
     if others > 0 {
         let named = format!("{others} more, nearer to what the project states");
         CollapsingHeader::new(tr(named)).id_salt("other corrections").show(ui, |ui| {
-            all().filter(|(_, c)| !is_telling(c)).for_each(|(k, c)| correction(ui, scene, (k, c), asks));
+            all().filter(|(_, c)| !is_telling(c)).for_each(|(k, c)| correction(ui, scene, k, c, asks));
         });
     }
     ui.add_space(space::S);
 }
 
 /// One correction, by its place in the list, with the button that takes it over.
-fn correction(ui: &mut Ui, scene: &Scene<'_>, (k, correction): (usize, &Correction), asks: &mut Vec<Ask>) {
+fn correction(ui: &mut Ui, scene: &Scene<'_>, k: usize, correction: &Correction, asks: &mut Vec<Ask>) {
     let name = cards::corrected(scene, &correction.parameter);
     let deviations = (correction.factor - 1.0) / correction.deviation.max(f64::MIN_POSITIVE);
     let row = Row { name: &name, value: findings::change(correction), deviations };

@@ -12,7 +12,7 @@ const BESIDE_TITLE: f32 = 30.0;
 
 /// Shows the switches of the map (0) or of the cell (1) in the bar of their pane, from right to left, where they have room
 /// beside its `title`; the pane is told. `records` tells that the cell shows a record that is not steady.
-pub(crate) fn in_bar(ui: &mut Ui, (place, title): (usize, &str), look: &mut Look, records: bool) {
+pub(crate) fn in_bar(ui: &mut Ui, place: usize, title: &str, look: &mut Look, records: bool) {
     let names: Vec<&str> = match (place, records) {
         (0, _) => ORDERS.map(|(_, label, _)| label).into(),
         (_, false) => Tab::ALL.map(Tab::label).into(),

@@ -4,8 +4,8 @@ use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::conclusion::UNEXPLAINED;
 use crate::diagnosis::selection::cross_validation::{exceeds, groups};
 use crate::diagnosis::selection::fitted_model::FittedModel;
-use crate::diagnosis::selection::found::{DOUBTFUL, explains_by_scatter};
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::search_result::{DOUBTFUL, explains_by_scatter};
 use crate::diagnosis::selection::weighing::{LIGHT, Weighed};
 use crate::diagnosis::updating::detuning::is_likely;
 use crate::effects::{Kind, Source};
@@ -18,13 +18,13 @@ const CHANGED: f64 = 6.0;
 /// The same of a further effect there, real models lack a little everywhere, and of a spring or a mass, which is like a
 /// correction itself.
 pub(super) const FURTHER: f64 = 100.0;
-/// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they are no
-/// rival.
-const RIVALLED: f64 = 4.0;
+/// Squared residual per datum of corrections as they are first found, over that of the best effect, from which on they do not
+/// compete with it.
+const COMPETING: f64 = 4.0;
 /// How many times the error of the effects before it, as `compare` shows it, a further effect may leave: errors that the runs have of their
 /// own scatter by that.
 pub(super) const RAISED: f64 = 1.1;
-/// Share of the error of the stated model that effects may leave where corrections that raise it are no rival of theirs: further
+/// Share of the error of the stated model that effects may leave where corrections that raise it do not compete: further
 /// than chance or one run on another branch would bring them.
 const HALVED: f64 = 0.5;
 
@@ -32,7 +32,7 @@ const HALVED: f64 = 0.5;
 type WithEvidence<'a> = (ReferenceModel<'a>, f64);
 
 /// The model that the next effect is to be better than.
-pub(super) struct Rival<'a, 'b> {
+pub(super) struct CompetingModel<'a, 'b> {
     /// The model with corrections as large as models are wrong by.
     bare: &'b ReferenceModel<'a>,
     /// Error of the model as it is stated.
@@ -43,7 +43,7 @@ pub(super) struct Rival<'a, 'b> {
     near: bool,
 }
 
-impl<'a, 'b> Rival<'a, 'b> {
+impl<'a, 'b> CompetingModel<'a, 'b> {
     /// Corrections alone, `corrected` where they were looked at before.
     pub(super) fn new(bare: &'b ReferenceModel<'a>, stated: f64, corrected: Option<WithEvidence<'a>>) -> Self {
         Self { bare, stated, model: corrected, near: false }
@@ -64,8 +64,8 @@ impl<'a, 'b> Rival<'a, 'b> {
         odds((self.least() - weighed.least) / scale - CHANGED)
     }
 
-    /// Takes the model with an effect more, whose evidence is `least`.
-    pub(super) fn is_now(&mut self, model: ReferenceModel<'a>, least: f64) {
+    /// Puts the model with an effect more, whose evidence is `least`, in its place.
+    pub(super) fn replace(&mut self, model: ReferenceModel<'a>, least: f64) {
         self.model = Some((model, least));
     }
 
@@ -98,7 +98,7 @@ impl<'a, 'b> Rival<'a, 'b> {
         if !allowed || *least < most {
             return Ok(false);
         }
-        if (self.near || from.is_some()) && !predicts_better(weighed, (model, from))? {
+        if (self.near || from.is_some()) && !predicts_better(weighed, model, from)? {
             // Corrections alone were followed only so far as they were to be judged.
             self.model = self.model.take().filter(|_| from.is_some());
             return Ok(false);
@@ -117,7 +117,7 @@ impl<'a, 'b> Rival<'a, 'b> {
         let scale = scale_of(&weighed.fits, weighed.reference.count());
         let doubtful = best.effects.iter().any(|e| e.effect.is_mass_or_spring()) || scale > DOUBTFUL;
         let misfit = bare.misfit();
-        self.near = misfit < RIVALLED * scale || doubtful;
+        self.near = misfit < COMPETING * scale || doubtful;
         let mut alone = match corrected {
             Some(corrected) => corrected,
             // Corrections are fitted as freely as they are likely in `bare` already.
@@ -180,8 +180,8 @@ fn damping_of_modes_alone<'a>(
     Ok(Some(moved.estimated(most)?).filter(|(estimated, _)| doubtful || is_likely(estimated)))
 }
 
-/// Whether the corrections of `likely` alone overfit, and are no rival of the effects of `best`: they predict the tests worse than the
-/// model as it was stated, with the relative error `stated`, which the effects at least halve; or they leave most of the response to
+/// Whether the corrections of `likely` alone overfit, and do not compete with the effects of `best`: they predict the tests worse
+/// than the model as it was stated, with the relative error `stated`, which the effects at least halve; or they leave most of the response to
 /// what is free from run to run, of which the effects leave less than half. They then lower the squared residual only by that freedom,
 /// and by scaling stiffness, mass and force together.
 fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<bool, DiagnosisError> {
@@ -197,7 +197,8 @@ fn overfits(likely: &ReferenceModel, best: &FittedModel, stated: f64) -> Result<
 /// can stand for, predict little better: they are told by their evidence alone.
 fn predicts_better(
     weighed: &Weighed,
-    (likely, before): (&ReferenceModel, Option<&FittedModel>),
+    likely: &ReferenceModel,
+    before: Option<&FittedModel>,
 ) -> Result<bool, DiagnosisError> {
     let best = &weighed.fits[0];
     let channel = best.effects.last().is_some_and(|e| matches!(e.effect.kind(), Kind::Channel(_)));

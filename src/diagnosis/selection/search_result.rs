@@ -60,8 +60,8 @@ impl FittedSets {
     }
 }
 
-/// Where a search ended.
-pub(crate) struct Found {
+/// What a search ended with.
+pub(crate) struct SearchResult {
     /// Whether updating parameters were freed.
     pub updated: bool,
     pub by_size: Vec<FittedSets>,
@@ -73,7 +73,7 @@ pub(crate) struct Found {
     pub without: f64,
 }
 
-impl Found {
+impl SearchResult {
     /// Nothing yet, beside the corrections of `bare`, where the model as it is has the squared residual `before`.
     pub(super) fn beside(bare: &ReferenceModel, before: f64) -> Self {
         Self { updated: true, by_size: Vec::new(), agrees: false, before, without: bare.misfit() }
@@ -116,7 +116,7 @@ pub(super) fn small(reference: &ReferenceModel, fit: &FittedModel, before: f64, 
 }
 
 /// Whether a fit agrees with the data, or all but.
-pub(crate) fn fits_well(reference: &ReferenceModel, found: &Found, fit: &FittedModel) -> bool {
+pub(crate) fn fits_well(reference: &ReferenceModel, found: &SearchResult, fit: &FittedModel) -> bool {
     agrees(reference, fit.chi_square, fit.parameters) || nearly(reference, fit, found.before)
 }
 
