@@ -116,7 +116,7 @@ pub(crate) fn lacks_width(problem: &Problem, control: &Control) -> Result<bool, 
     Ok(data.runs.iter().zip(&predictions).any(within))
 }
 
-/// Share of the error of what is told below which what the runs of one level led to leaves less, where it is no better known.
+/// Share of the error of what is told below which what was found another way leaves less, where it is no better known.
 const LESS: f64 = 0.8;
 
 /// What is found on the runs of `data`.
@@ -175,7 +175,8 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
         && let Ok(outcome) = stepwise::explain(stated.doubting_harmonics(), before)?
     {
         let second = outcome.conclude(diagnosis.clone())?;
-        told = if second.verdict == Verdict::Unexplained { told } else { second };
+        let better = second.verdict != Verdict::Unexplained || left(&second) < LESS * left(&told);
+        told = if better { second } else { told };
     }
     let open = matches!(told.verdict, Verdict::Unexplained | Verdict::Undecided);
     let of_level = if open && !far && !control.is_late() { from_one_level()? } else { of_level };
@@ -185,9 +186,13 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
     }))
 }
 
+/// Error that what is told leaves.
+fn left(diagnosis: &Diagnosis) -> f64 {
+    diagnosis.steps.last().map_or(f64::INFINITY, |step| step.error)
+}
+
 /// Whether `other` says more than `told` does and leaves less, or leaves much less.
 fn is_better(other: &Diagnosis, told: &Diagnosis) -> bool {
-    let left = |diagnosis: &Diagnosis| diagnosis.steps.last().map_or(f64::INFINITY, |step| step.error);
     let most = if other.verdict == Verdict::Missing { 1.0 } else { LESS };
     other.verdict != Verdict::Unexplained && left(other) < most * left(told)
 }

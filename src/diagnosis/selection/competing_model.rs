@@ -85,7 +85,7 @@ impl<'a, 'b> CompetingModel<'a, 'b> {
     ) -> Result<bool, DiagnosisError> {
         let best = &weighed.fits[0];
         let scale = scale_of(&weighed.fits, weighed.reference.count());
-        let raises = raises_error(best.error, from.map(|from| from.error), self.stated);
+        let raises = self.is_error_raised(weighed, from)?;
         let allowed = !raises && best.parameters < weighed.reference.count();
         let by_modes = self.bare.linearisation.updating.is_by_modes();
         let most = weighed.least + scale * evidence_needed(&best.effects, by_modes);
@@ -104,6 +104,13 @@ impl<'a, 'b> CompetingModel<'a, 'b> {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// Whether the best of `weighed` leaves more than what was before it, beyond what a few runs on the other side of a jump do.
+    fn is_error_raised(&self, weighed: &Weighed, from: Option<&FittedModel>) -> Result<bool, DiagnosisError> {
+        let (best, before) = (&weighed.fits[0], from.map(|from| from.error));
+        let raises = |error: f64, _: f64| raises_error(error, before, self.stated);
+        weighed.reference.leaves(raises, [best.error, 0.0], &best.effects, &best.starts)
     }
 
     /// The model with corrections alone, as it was `corrected` before, or not followed where its evidence would stay above `most`.
@@ -238,8 +245,27 @@ fn is_single_change(effects: &[Source]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
+    use crate::diagnosis::residual::prediction::FINAL;
+    use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
     use crate::effects::{Effect, Place};
+
+    /// An effect that jumps, and leaves more than the model as it is stated for one run of eight beyond its jump alone, raises no error; where
+    /// nothing jumps, all runs count.
+    #[test]
+    fn a_run_beyond_a_jump_raises_no_error() {
+        let raised = |effects: &[Source]| {
+            with_stated(effects, |reference| {
+                let fit = reference.estimator().fit(effects, 0, &FINAL, &Vec::new()).unwrap();
+                let error = reference.error_of_structure(effects, &fit.starts).unwrap();
+                let (bare, fits) = (reference.clone(), vec![FittedModel { error, ..fit }]);
+                let weighed = Weighed { reference, fits, probabilities: vec![1.0], least: 0.0 };
+                CompetingModel::new(&bare, 0.999 * error, None).is_error_raised(&weighed, None).unwrap()
+            })
+        };
+        assert_eq!([raised(&[]), raised(&[hidden()])], [true, false]);
+    }
 
     /// The first effect has to lower the error of the stated model; a further one may scatter by as much as errors of runs do.
     #[test]

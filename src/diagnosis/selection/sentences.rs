@@ -18,9 +18,13 @@ pub(crate) fn sentences(
 ) -> Result<Vec<String>, DiagnosisError> {
     let source = &added.source;
     let mut said = vec![source.effect.sentence().to_string(), values(source, &added.deviations)];
-    let [before, after] = [before, after].map(|share| significant(100.0 * share, 3));
+    let percent = |share: f64| significant(100.0 * share, 3);
     let on = if reference.data.chosen { " on the runs that were searched" } else { "" };
-    said.push(format!("With it alone the error{on} goes from {before} % to {after} %."));
+    said.push(format!("With it alone the error{on} goes from {} % to {} %.", percent(before), percent(after)));
+    if after > before {
+        let left = percent(reference.error_beside_jumps(&best.effects, &best.starts)?);
+        said.push(format!("Beside the runs that may lie beyond a jump, one in eight, it leaves {left} %."));
+    }
     match &source.place {
         Place::Dofs(_) => {
             if let Some(data) = reference.place_data(best, source)?

@@ -24,7 +24,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The same of `effects` that jump, beside the few runs of which it leaves most; of a linear model all runs count.
-    fn error_beside_jumps(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
+    pub(super) fn error_beside_jumps(&self, effects: &[Source], starts: &Starts) -> Result<f64, DiagnosisError> {
         let predictor = self.of_structure()?;
         let estimator = Estimator { predictor: &predictor, ..self.estimator() };
         let predictions = self.predictions_of_structure(&predictor, effects, starts)?;
