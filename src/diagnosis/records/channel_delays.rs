@@ -125,7 +125,7 @@ impl FitProblem<'_> {
         (size..size + asked.len()).for_each(|k| normal.matrix[(k, k)] = unit);
         let parts = self.control.map(self.records.list.len(), |r| {
             let mut derivatives = self.derivatives(at, &scales, r, Steps::Fine)?;
-            self.add_delays(&mut derivatives, r, (asked, step), size);
+            self.add_delays(&mut derivatives, r, asked, step, size);
             Ok(derivatives.products(1.0))
         });
         for part in parts.into_iter().collect::<Result<Vec<_>, RecordDiagnosisError>>()? {
@@ -135,7 +135,7 @@ impl FitProblem<'_> {
     }
 
     /// Adds the derivatives of record `r` by the delays, the first of which has the number `first` among the variables.
-    fn add_delays(&self, derivatives: &mut RecordDerivatives, r: usize, (asked, step): (&[Late], f64), first: usize) {
+    fn add_delays(&self, derivatives: &mut RecordDerivatives, r: usize, asked: &[Late], step: f64, first: usize) {
         let record = &self.records.list[r];
         let count = derivatives.count;
         for (c, (columns, left)) in derivatives.channels.iter_mut().zip(&derivatives.left).enumerate() {
@@ -311,7 +311,7 @@ mod tests {
         let known = [whole(Effect::MassProportional, 0.3)];
         let (run, control) = (decay(STEP, ringing(STEP / 3.0)), Control::unattended());
         let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.whole();
         let problem = FitProblem { records: whole, free: Free::all(whole), share: 1.0, control: &control };
         let fit = problem.improve(&FittedRecords::start(whole, &[]), 20).unwrap();

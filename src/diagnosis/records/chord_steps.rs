@@ -69,7 +69,7 @@ impl ChordJacobian {
         unit: f64,
         defect: &Defect,
     ) -> Result<Normal, RecordDiagnosisError> {
-        let renewed = |r: usize| self.records[r].renewed(problem, at, scales, (r, defect));
+        let renewed = |r: usize| self.records[r].renewed(problem, at, scales, r, defect);
         let parts = problem.control.map(self.records.len(), renewed);
         Ok(problem.assembled(at, unit, parts.into_iter().collect::<Result<_, _>>()?))
     }
@@ -98,7 +98,8 @@ impl RecordJacobian {
         problem: &FitProblem,
         at: &FittedRecords,
         scales: &[Vec<f64>],
-        (r, defect): (usize, &Defect),
+        r: usize,
+        defect: &Defect,
     ) -> Result<RecordPart, RecordDiagnosisError> {
         let first = problem.first_correction(at);
         let all = problem.unknowns(at, scales, r);

@@ -42,12 +42,10 @@ impl Search<'_> {
         let Some((level, bare)) = bare.filter(|(_, fit)| is_needless(fit) && !self.control.is_late()) else {
             return Ok(());
         };
-        let start = self.carried(bare, *level, self.levels.len() - 1)?;
-        let corrected = self.corrected_whole(&start)?;
-        let mut detuned = before;
-        let stated = self.stated_fit(&corrected)?;
+        let corrected = self.corrected_whole(&self.carried(bare, *level, self.levels.len() - 1)?)?;
+        let (mut detuned, stated) = (before, self.stated_fit(&corrected)?);
         let error = self.predicted_error(&stated, &stated.effects)?;
-        self.conclude_stated((&stated, error), misfit(&corrected), std::slice::from_ref(&corrected), &mut detuned)?;
+        self.conclude_stated(&stated, error, misfit(&corrected), std::slice::from_ref(&corrected), &mut detuned)?;
         if detuned.verdict != Verdict::Unexplained {
             *diagnosis = detuned;
         }
@@ -59,7 +57,7 @@ impl Search<'_> {
         let late = self.control.is_late();
         let mut last: Vec<FittedRecords> = by_size.last.iter().map(without_void).collect();
         if late {
-            last = self.believable(last)?;
+            last = self.plausible(last)?;
         }
         last = likeliest_first(last, late);
         let Some(best) = last.first() else {
@@ -77,29 +75,28 @@ impl Search<'_> {
         // Where time is up the parts are stated as the fit has them, whatever else could stand for them.
         let stated = if late && !corrections.is_empty() { None } else { Some(self.stated_fit(best)?) };
         if let Some(stated) = stated.as_ref().filter(|_| corrections.is_empty()) {
-            return self.conclude_with((stated, self.predicted_error(stated, &stated.effects)?), &last, diagnosis);
+            return self.conclude_with(stated, self.predicted_error(stated, &stated.effects)?, &last, diagnosis);
         }
         // The parts of the structure as the fit has them, where that leaves clearly less than corrections of all of it or of modes.
         let structure = self.structure_with(&factors(&corrections));
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
-        let known = (self.excluded, self.stated, self.supports);
-        let search = Search::new(&records, &plain, known, self.control);
+        let search = Search::new(&records, &plain, self.excluded, self.stated, self.supports, self.control);
         let fits: Vec<FittedRecords> = last.iter().map(|fit| beside_parts(fit, &records)).collect();
         let beside_parts = search.stated_fit(&fits[0])?;
         let left = search.predicted_error(&beside_parts, &beside_parts.effects)?;
         if let Some(stated) = stated {
             let before = self.predicted_error(&stated, &stated.effects)?;
             if left > BETTER * before {
-                return self.conclude_with((&stated, before), &last, diagnosis);
+                return self.conclude_with(&stated, before, &last, diagnosis);
             }
         }
         diagnosis.corrections.extend(corrections.into_iter().map(|(_, c)| c));
-        search.conclude_with((&beside_parts, left), &fits, diagnosis)
+        search.conclude_with(&beside_parts, left, &fits, diagnosis)
     }
 
     /// The fits of a search whose time was up: without the corrections that are no more than their priors allow, of which nobody was asked
     /// what else they stand for, unless these take away much of the error.
-    fn believable(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
+    fn plausible(&self, fits: Vec<FittedRecords>) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let lean: Vec<FittedRecords> = fits.iter().map(beyond_priors).collect();
         let (Some(best), Some(first)) = (fits.first(), lean.first()) else { return Ok(fits) };
         let keeps = self.predicted_error_with_parts(best)? < BETTER * self.predicted_error_with_parts(first)?;
@@ -110,7 +107,7 @@ impl Search<'_> {
     fn predicted_error_with_parts(&self, fit: &FittedRecords) -> Result<f64, RecordDiagnosisError> {
         let structure = self.structure_with(&factors(&corrections_of_parts(self.records, fit)));
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
-        let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
+        let search = Search::new(&records, &plain, self.excluded, self.stated, self.supports, self.control);
         search.predicted_error(&beside_parts(fit, &records), &fit.effects)
     }
 
@@ -118,13 +115,14 @@ impl Search<'_> {
     /// it.
     fn conclude_with(
         &self,
-        (stated, error): (&FittedRecords, f64),
+        stated: &FittedRecords,
+        error: f64,
         found: &[FittedRecords],
         diagnosis: &mut Diagnosis,
     ) -> Result<(), RecordDiagnosisError> {
         let model_errors = ModelErrors::of(self.records.structure, stated);
         if model_errors.sources.is_empty() {
-            return self.conclude_stated((stated, error), misfit(stated), found, diagnosis);
+            return self.conclude_stated(stated, error, misfit(stated), found, diagnosis);
         }
         // What a spring or mass changes of a part is made a number of the structure, and the rest is fitted beside it.
         let without = |fit: &FittedRecords| {
@@ -135,13 +133,13 @@ impl Search<'_> {
         diagnosis.suggestions.retain(|s| !model_errors.holds(&s.added.source));
         let structure = self.records.structure.with_factors(&model_errors.factors());
         let (plain, records) = (self.plain.on(&structure)?, self.records.on(&structure)?);
-        let search = Search::new(&records, &plain, (self.excluded, self.stated, self.supports), self.control);
+        let search = Search::new(&records, &plain, self.excluded, self.stated, self.supports, self.control);
         let fits: Vec<FittedRecords> = found.iter().map(without).collect();
         let corrected = search.stated_fit(&search.corrected_whole(&fits[0])?)?;
         model_errors.corrections.iter().for_each(|more| correct(&mut diagnosis.corrections, more));
         let left = if corrected.effects.is_empty() { misfit(stated) } else { misfit(&corrected) };
         let error = search.predicted_error(&corrected, &corrected.effects)?;
-        search.conclude_stated((&corrected, error), left, &fits, diagnosis)
+        search.conclude_stated(&corrected, error, left, &fits, diagnosis)
     }
 
     /// A fit on whole records, with deviations of its own.
@@ -153,7 +151,8 @@ impl Search<'_> {
     /// size.
     fn conclude_stated(
         &self,
-        (stated, error): (&FittedRecords, f64),
+        stated: &FittedRecords,
+        error: f64,
         left: f64,
         fits: &[FittedRecords],
         diagnosis: &mut Diagnosis,
@@ -172,7 +171,7 @@ impl Search<'_> {
         }
         let late = self.control.is_late();
         for suggestion in diagnosis.suggestions.iter_mut().filter(|s| s.probability > UNLIKELY || !late) {
-            self.complete(suggestion, (stated, error), fits)?;
+            self.complete(suggestion, stated, error, fits)?;
         }
         let words = self.words_on_all(stated, error, diagnosis)?;
         if let Some(first) = diagnosis.suggestions.first_mut() {
@@ -195,8 +194,8 @@ impl Search<'_> {
     /// Whether other effects than those that are stated are still likely, and there is time to say what would tell them apart.
     fn is_open(&self, diagnosis: &Diagnosis) -> bool {
         let sure = diagnosis.suggestions.first().map_or(1.0, |s| s.probability);
-        let rivals = diagnosis.suggestions.iter().filter(|s| s.probability > OPEN).count();
-        sure < 1.0 - OPEN && rivals > 1 && !self.control.is_late()
+        let open = diagnosis.suggestions.iter().filter(|s| s.probability > OPEN).count();
+        sure < 1.0 - OPEN && open > 1 && !self.control.is_late()
     }
 
     /// A set of a shorter level on the whole records; none where it runs away there.
@@ -215,7 +214,8 @@ impl Search<'_> {
     fn complete(
         &self,
         suggestion: &mut Suggestion,
-        (stated, error): (&FittedRecords, f64),
+        stated: &FittedRecords,
+        error: f64,
         fits: &[FittedRecords],
     ) -> Result<(), RecordDiagnosisError> {
         let has = |f: &&FittedRecords| f.effects.iter().any(|e| e.is_same(&suggestion.added.source));

@@ -105,7 +105,7 @@ mod tests {
         let known = [whole(Effect::MassProportional, 0.5)];
         let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let fit = FittedRecords::start(&records, &[source(Effect::Viscous, &[1], &[0.3])]);
         let start = search.absorbed(&fit).unwrap();
         assert_eq!(start.damping.len(), 2);
@@ -123,7 +123,7 @@ mod tests {
         let run = decay(1e-2, vec![(0..400).map(wave).collect()]);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         // k i w c / (k + i w c) with k = 40 N/m and w c = 40 N/m: 20 (1 + i) N/m beside 800 N/m.
         let fit = FittedRecords::start(&records, &[source(Effect::Maxwell, &[0], &[40.0, 2.0])]);
         let start = search.absorbed(&fit).unwrap();

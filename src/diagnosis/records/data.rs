@@ -210,10 +210,12 @@ impl<'a> Records<'a> {
         record: &RecordData,
         sources: &[Source],
         factors: [f64; 2],
-        (modes, parts, shape_errors): ([&[f64]; 2], &[(Part, f64)], &[Vec<f64>]),
+        modes: [&[f64]; 2],
+        parts: &[(Part, f64)],
+        shape_errors: &[Vec<f64>],
     ) -> Result<TransientModel, RecordDiagnosisError> {
         let shape_errors = &self.shape_errors(record, shape_errors);
-        let setup = self.setup(record, sources, factors, (modes, parts));
+        let setup = self.setup(record, sources, factors, modes, parts);
         let directions = &self.parts.weights;
         TransientModel::new(&TransientSetup { directions, shape_errors, ..setup })
             .map_err(|reason| RecordDiagnosisError::Model { file: record.file.clone(), reason })
@@ -225,7 +227,8 @@ impl<'a> Records<'a> {
         record: &'s RecordData,
         sources: &'s [Source],
         factors: [f64; 2],
-        ([mode_stiffness, mode_damping], parts): ([&'s [f64]; 2], &'s [(Part, f64)]),
+        [mode_stiffness, mode_damping]: [&'s [f64]; 2],
+        parts: &'s [(Part, f64)],
     ) -> TransientSetup<'s> {
         TransientSetup {
             structure: self.structure,

@@ -108,7 +108,7 @@ fn searched(
     // Both as comparing the project shows them: one error and one noise floor of a record, whoever asks.
     let (before, noise_floor) = (bare.error(records, 0.0, 1.0)?, noise_floor(records, &bare)?);
     let weighted = records.weighted(&bare.residual);
-    let search = Search::new(&weighted, records, (excluded, records.structure, &[]), control);
+    let search = Search::new(&weighted, records, excluded, records.structure, &[], control);
     let bare = search.quiet(search.levels.len() - 1, &bare)?;
     let stated = Step { added: Vec::new(), error: before, misfit: misfit(&bare) };
     let mut diagnosis = Diagnosis::adequate(stated, noise_floor);
@@ -125,7 +125,7 @@ fn searched(
         let held = Records::new(&structure, &records.known, &runs)?;
         let bare = started(&held, &[], control)?;
         let weighted = held.weighted(&bare.residual);
-        let search = Search::new(&weighted, &held, (excluded, records.structure, &supports), control);
+        let search = Search::new(&weighted, &held, excluded, records.structure, &supports, control);
         diagnosis.corrections.clone_from(&supports);
         let bare = search.quiet(search.levels.len() - 1, &bare)?;
         search.explain(&bare, &mut diagnosis, early)?
@@ -150,7 +150,7 @@ impl Search<'_> {
         diagnosis: &mut Diagnosis,
         early: &Early,
     ) -> Result<Vec<ChannelCorrection>, RecordDiagnosisError> {
-        let by_size = self.climbed(bare, early)?;
+        let by_size = self.selected_forward(bare, early)?;
         self.conclude(&by_size, diagnosis)?;
         match by_size.last.first().map_or(Ok(Vec::new()), |best| self.delays(best)) {
             // What was found stands whether or not delays can be asked for beside it.
@@ -161,7 +161,7 @@ impl Search<'_> {
 
     /// Effects added on the shortest parts on which the model shows that it lacks one, until no more is found; what was found carried
     /// on to the whole records.
-    fn climbed(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordDiagnosisError> {
+    fn selected_forward(&self, bare: &FittedRecords, early: &Early) -> Result<SetsBySize, RecordDiagnosisError> {
         let whole = self.levels.len() - 1;
         let bare = self.carried(bare, whole, 0)?;
         let mut by_size = SetsBySize { earlier: Vec::new(), last: vec![self.updated_model(&bare)?] };
@@ -220,7 +220,7 @@ impl Search<'_> {
             if self.agrees(best) || best.effects.len() >= MOST_EFFECTS || self.control.is_late() {
                 break;
             }
-            let mut found = self.beside_rivals(level, &by_size.last, bare)?;
+            let mut found = self.beside_candidates(level, &by_size.last, bare)?;
             let Some(better) = self.first_better(level, &found, best)? else { break };
             let mut top = self.pruned(level, &found.remove(better))?;
             let corrected = self.as_correction(level, &top)?;
@@ -269,7 +269,7 @@ impl Search<'_> {
         if level + 1 == self.levels.len() && !stands_out(new) && !takes_much(new, old) {
             return Ok(false);
         }
-        // Corrections beyond what is believed are what an effect does, where it explains as much with corrections that may be.
+        // Corrections beyond what is plausible are what an effect does, where it explains as much with corrections that may be.
         let constant = new.adds_constant();
         if misfit(old) < AGREES && is_strained(old) && !is_strained(new) && !constant && gain > 0.0 {
             return Ok(true);

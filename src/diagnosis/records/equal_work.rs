@@ -162,7 +162,7 @@ mod tests {
         let (modes, run) = (structure.modes().unwrap(), in_first_mode(&structure));
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         let mut start = FittedRecords::start(&search.levels[whole], &[]);
         start.initial[0][0] = 2e-2;

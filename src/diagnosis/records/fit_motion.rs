@@ -81,7 +81,7 @@ fn of_record(
     let channel = |dof: usize| quantities.map(|quantity| Channel { quantity, dof, label: String::new() });
     let channels: Vec<Channel> = rows.iter().flat_map(|dof| channel(*dof)).collect();
     let (sources, parts) = (fit.sources(records), records.parts.logarithms(&fit.parts));
-    let setup = records.setup(record, &sources, fit.factors(r), ([&fit.modes, &fit.damping], &parts));
+    let setup = records.setup(record, &sources, fit.factors(r), [&fit.modes, &fit.damping], &parts);
     let failed = |reason| RecordDiagnosisError::Model { file: record.file.clone(), reason };
     let model = TransientModel::new(&TransientSetup { channels: &channels, ..setup }).map_err(failed)?;
     let forces = record.excitation(model.is_linear());

@@ -102,7 +102,7 @@ impl FittedRecords {
         samples: usize,
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, RecordDiagnosisError> {
-        self.predict_in(Steps::Fine, records, (r, samples), parameters)
+        self.predict_in(Steps::Fine, records, r, samples, parameters)
     }
 
     /// The same in steps of some length.
@@ -110,7 +110,8 @@ impl FittedRecords {
         &self,
         steps: Steps,
         records: &Records,
-        (r, samples): (usize, usize),
+        r: usize,
+        samples: usize,
         parameters: &[TransientParameter],
     ) -> Result<TransientResponse, RecordDiagnosisError> {
         let record = &records.list[r];
@@ -119,7 +120,9 @@ impl FittedRecords {
             record,
             &self.sources(records),
             self.factors(r),
-            ([&self.modes, &self.damping], &parts, &self.shapes),
+            [&self.modes, &self.damping],
+            &parts,
+            &self.shapes,
         )?;
         let forces = record.excitation_in(samples, model.is_linear(), steps);
         let mut response = model

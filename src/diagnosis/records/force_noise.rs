@@ -52,7 +52,7 @@ impl Records<'_> {
         if noise.iter().all(|s| *s <= 0.0) {
             return None;
         }
-        let model = self.model(record, &self.known, [1.0; 2], ([&[]; 2], &[], &[])).ok()?;
+        let model = self.model(record, &self.known, [1.0; 2], [&[]; 2], &[], &[]).ok()?;
         let trusted = trusted(record, &model);
         let mut variances = vec![vec![0.0; record.len()]; record.channels.len()];
         let mut lengths = vec![0.0_f64; record.channels.len()];
@@ -80,7 +80,7 @@ impl Records<'_> {
     }
 }
 
-/// Share of the response of the model to the pulses that is believed, by channel: no more power than was measured.
+/// Share of the response of the model to the pulses that is plausible, by channel: no more power than was measured.
 fn trusted(record: &RecordData, model: &TransientModel) -> Vec<f64> {
     let forced = model.forced(&record.forces, Hold::BandLimited, record.step, 1);
     let power = |y: &[f64]| root_mean_square(y).powi(2);

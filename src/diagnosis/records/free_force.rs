@@ -77,7 +77,7 @@ impl FreeForce {
         let squares = under.iter().map(|a| a.iter().map(c64::norm_sqr).sum()).collect();
         let place = AtPlace { lines, under, squares, first, record, unknowns };
         let (forces, variances, ends) = place.estimated()?;
-        let motion = place.motion(&expansion, &spectra, (&pattern, &forces, &ends));
+        let motion = place.motion(&expansion, &spectra, &pattern, &forces, &ends);
         let against: Vec<c64> = forces.iter().map(|g| -g).collect();
         let force = over_time(&against, first, record);
         let deviation = (2.0 * variances.iter().sum::<f64>()).sqrt() / length;
@@ -147,7 +147,9 @@ impl AtPlace<'_> {
         &self,
         expansion: &Expansion,
         spectra: &Spectra,
-        (pattern, forces, ends): (&[f64], &[c64], &[f64]),
+        pattern: &[f64],
+        forces: &[c64],
+        ends: &[f64],
     ) -> [Vec<f64>; 3] {
         let record = self.record;
         let (length, size) = (record.step * (record.len() - 1) as f64, pattern.len());

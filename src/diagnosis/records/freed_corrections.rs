@@ -4,7 +4,7 @@
 use super::data::RecordDiagnosisError;
 use super::evidence::{AGREES, evidence, misfit, scale};
 use super::fitted::FittedRecords;
-use super::search::{HOPELESS, NOISE, Search, add_begun};
+use super::search::{MOST_LEFT, NOISE, Search, add_begun};
 
 /// Rounds and steps of such a fit.
 const FREEING: [usize; 2] = [2, 6];
@@ -29,7 +29,7 @@ impl Search<'_> {
             let starts = self.special_case_starts(level, &found);
             let fits = self.control.map(starts.len(), |k| self.freed(level, &starts[k]));
             let fits: Vec<Option<FittedRecords>> = fits.into_iter().collect::<Result<_, _>>()?;
-            let least = found.first().map_or(0.0, |best| HOPELESS[0] * best.chi_square.max(NOISE * best.count as f64));
+            let least = found.first().map_or(0.0, |best| MOST_LEFT[0] * best.chi_square.max(NOISE * best.count as f64));
             add_begun(&mut found, fits.into_iter().map(|fit| fit.filter(|fit| fit.chi_square < least)).collect());
         }
         Ok(self.sorted(level, found))

@@ -15,8 +15,8 @@ use dashpot_numerics::dot;
 /// Shapes of one generalisation from which fits start, and of all of them together.
 const BEGUN: usize = 2;
 const BEGUN_OF_ALL: usize = 8;
-/// Places of rivals at which the law of the best is tried, and the squared residual over that of the best, or over the noise, up to which
-/// they are rivals.
+/// Places of candidates at which the law of the best is tried, and the squared residual over that of the best, or over the noise, up to which
+/// they compete.
 const ELSEWHERE: usize = 2;
 const NEAR: f64 = 4.0;
 
@@ -59,9 +59,9 @@ impl Search<'_> {
         self.with_law_replaced(level, best, &laws)
     }
 
-    /// The law of the best of `found` at the places of its nearest rivals, where it was not tried: law and place are decided together, and
+    /// The law of the best of `found` at the places of its nearest candidates, where it was not tried: law and place are decided together, and
     /// a law that was generalised at one place only would seem certain of that place.
-    pub(super) fn starts_at_rival_places(
+    pub(super) fn starts_at_candidate_places(
         &self,
         level: usize,
         found: &[FittedRecords],
@@ -73,10 +73,10 @@ impl Search<'_> {
         }
         let mut places = vec![&law.place];
         let mut starts = Vec::new();
-        for rival in found.iter().skip(1).filter(|f| f.chi_square < NEAR * best.chi_square.max(f.count as f64)) {
-            let Some(other) = rival.effects.last() else { continue };
+        for candidate in found.iter().skip(1).filter(|f| f.chi_square < NEAR * best.chi_square.max(f.count as f64)) {
+            let Some(other) = candidate.effects.last() else { continue };
             let same_others =
-                is_same_set(&rival.effects[..rival.effects.len() - 1], &best.effects[..best.effects.len() - 1]);
+                is_same_set(&candidate.effects[..candidate.effects.len() - 1], &best.effects[..best.effects.len() - 1]);
             let new = !places.iter().any(|p| p.is_same(&other.place));
             if places.len() > ELSEWHERE || !new || !same_others {
                 continue;
@@ -86,7 +86,7 @@ impl Search<'_> {
                 f.effects.last().is_some_and(|e| e.effect == law.effect && e.place.is_same(&other.place))
             };
             if !found.iter().any(tried) {
-                starts.extend(self.with_law_replaced(level, rival, &[law.effect])?);
+                starts.extend(self.with_law_replaced(level, candidate, &[law.effect])?);
             }
         }
         starts.retain(|s| !self.pruned.holds(&s.effects, best));
@@ -125,7 +125,7 @@ impl Search<'_> {
         few.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.gain.total_cmp(&a.1.gain)));
         few.truncate(BEGUN_OF_ALL);
         let in_place = |scored: Scored| {
-            let source = self.with_equal_force(law, scored.source, (leg, test.motion(), level))?;
+            let source = self.with_equal_force(law, scored.source, leg, test.motion(), level)?;
             let mut start = fit.clone();
             start.effects.pop();
             start.effects.push(source);
@@ -139,7 +139,9 @@ impl Search<'_> {
         &self,
         law: &Source,
         mut source: Source,
-        (leg, motion, level): (Leg, &FitMotion, usize),
+        leg: Leg,
+        motion: &FitMotion,
+        level: usize,
     ) -> Option<Source> {
         let (mut product, mut square) = (0.0, 0.0);
         for (r, record) in self.levels[level].list.iter().enumerate() {
@@ -201,13 +203,13 @@ mod tests {
         Source::known(effect, Place::Dofs(vec![dof]), parameters)
     }
 
-    /// Starts beside some fits, each of one effect with its squared residual: special cases, and rival places.
+    /// Starts beside some fits, each of one effect with its squared residual: special cases, and candidate places.
     fn starts(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
         let structure = chain();
         let run = decay(&structure);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         let mut bare = FittedRecords::start(&search.levels[whole], &[]);
         bare.initial[0][0] = 2e-2;
@@ -219,7 +221,10 @@ mod tests {
         };
         let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
         let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
-        [laws(search.special_case_starts(whole, &found)), laws(search.starts_at_rival_places(whole, &found).unwrap())]
+        [
+            laws(search.special_case_starts(whole, &found)),
+            laws(search.starts_at_candidate_places(whole, &found).unwrap()),
+        ]
     }
 
     /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
@@ -233,7 +238,7 @@ mod tests {
         assert!(plainer.iter().all(|s| s.effect != Effect::Viscous), "{plainer:?}");
     }
 
-    /// The best law begins at the place of a near rival; not where it was tried, and not where little speaks for the place.
+    /// The best law begins at the place of a near candidate; not where it was tried, and not where little speaks for the place.
     #[test]
     fn the_best_law_is_tried_at_the_places_of_its_rivals() {
         let best = (at(Effect::Viscous, 2, &[0.9]), 7000.0);
@@ -254,7 +259,7 @@ mod tests {
         let run = decay(&structure);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         let mut best = FittedRecords::start(&search.levels[whole], &[]);
         best.initial[0][0] = 2e-2;

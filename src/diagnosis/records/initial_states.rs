@@ -186,7 +186,7 @@ mod tests {
         let run = decay(4e-3, (0..2).map(shown).collect());
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let mut start = FittedRecords::start(&search.levels[0], &[]);
         start.effects = vec![Source::known(Effect::Viscous, Place::Dofs(vec![1]), &[0.7])];
         // The sensors do not tell the state at the very beginning.

@@ -4,10 +4,10 @@ use super::data::RecordDiagnosisError;
 use super::evidence::{evidence, misfit, scale};
 use super::fitted::FittedRecords;
 use super::pruning::{diverse, without_needless_generalisations};
-use super::search::{HOPELESS, Search, keep};
+use super::search::{MOST_LEFT, Search, keep};
 
 /// Fits that are carried on to longer parts, and the rounds and steps there of all and of those that are followed.
-const RIVALS: usize = 4;
+const CANDIDATES: usize = 4;
 /// Misfit on longer parts over that on shorter ones from which on the phase is lost there: residuals are twice what they were, which
 /// corrections that drift do not make.
 const LOST: f64 = 4.0;
@@ -17,15 +17,15 @@ const LEAST_RIVALS: usize = 2;
 const CARRYING: [[usize; 2]; 2] = [[1, 4], [2, 4]];
 
 impl Search<'_> {
-    /// The level on which what was found at `level` goes on: the whole records where the best of `rivals` keeps the phase over them.
-    pub(super) fn next_level(&self, level: usize, rivals: &[FittedRecords]) -> usize {
+    /// The level on which what was found at `level` goes on: the whole records where the best of `candidates` keeps the phase over them.
+    pub(super) fn next_level(&self, level: usize, candidates: &[FittedRecords]) -> usize {
         let whole = self.levels.len() - 1;
         let keeps_phase = |best: &FittedRecords| {
             let start = self.carried(best, level, whole).ok()?;
             let left = self.problem(whole, 1.0).left(&start).ok()?;
             Some(left.chi_square < self.most_in_phase(best, whole))
         };
-        let found = rivals.first().filter(|best| level + 1 < whole && !best.effects.is_empty());
+        let found = candidates.first().filter(|best| level + 1 < whole && !best.effects.is_empty());
         if found.and_then(keeps_phase) == Some(true) { whole } else { level + 1 }
     }
 
@@ -34,15 +34,15 @@ impl Search<'_> {
         LOST * misfit(fit) * self.levels[level].samples() as f64
     }
 
-    /// The best of `rivals` of the level `from` fitted on the parts of the level `to`, best first.
+    /// The best of `candidates` of the level `from` fitted on the parts of the level `to`, best first.
     pub(super) fn lengthened(
         &self,
-        rivals: &[FittedRecords],
+        candidates: &[FittedRecords],
         from: usize,
         to: usize,
     ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
-        let mut few = diverse(&without_needless_generalisations(rivals), RIVALS);
-        if let Some(best) = rivals.first() {
+        let mut few = diverse(&without_needless_generalisations(candidates), CANDIDATES);
+        if let Some(best) = candidates.first() {
             let unit = scale(best);
             let near = few.iter().filter(|f| evidence(f, unit) < evidence(best, unit) + BEHIND).count();
             few.truncate(near.max(LEAST_RIVALS));
@@ -56,12 +56,12 @@ impl Search<'_> {
             let fit = |k: usize| self.fit(to, &list[k], 1.0, rounds).ok();
             self.control.map(list.len(), fit).into_iter().flatten().collect()
         };
-        // What leaves hopelessly much after the first rounds is not followed further.
+        // What leaves far too much after the first rounds is not followed further.
         let mut found = longer(&starts, CARRYING[0]);
-        keep(&mut found, RIVALS, HOPELESS[0]);
+        keep(&mut found, CANDIDATES, MOST_LEFT[0]);
         let mut found = longer(&found, CARRYING[1]);
         self.control.check()?;
-        keep(&mut found, RIVALS, HOPELESS[1]);
+        keep(&mut found, CANDIDATES, MOST_LEFT[1]);
         self.beside_neighbours(to, self.sorted(to, found))
     }
 }
@@ -89,7 +89,7 @@ mod tests {
         let run = decay(1e-2, (0..2).map(|dof| (0..12_000).map(|n| wave(n, dof)).collect()).collect());
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         let mut start = FittedRecords { stiffness, ..FittedRecords::start(&search.levels[whole], &[]) };
         start.effects = vec![Source::known(Effect::Viscous, Place::Dofs(vec![1]), &[1e-9])];

@@ -61,19 +61,21 @@ pub fn missing_force(
     let Some(source) = source else {
         let all = Family::EachTranslation.places(&structure).into_iter().chain(Family::EachPair.places(&structure));
         let best = locate(&corrected, &all.collect::<Vec<Place>>(), 0.0).into_iter().next();
-        return best.map_or(Ok(None), |best| at_place(&corrected, (&[], &best.place, None), control));
+        return best.map_or(Ok(None), |best| at_place(&corrected, &[], &best.place, None, control));
     };
     let others: Vec<Source> = found.iter().filter(|e| !e.is_same(source)).cloned().collect();
     // What is suggested in place of the best set was not found beside it.
     let others = if others.len() < found.len() { others } else { Vec::new() };
     let law = (diagnosis.verdict != Verdict::Unexplained).then_some(source);
-    at_place(&corrected, (&others, &source.place, law), control)
+    at_place(&corrected, &others, &source.place, law, control)
 }
 
 /// The force at a place beside `others`.
 fn at_place(
     records: &Records,
-    (others, place, law): (&[Source], &Place, Option<&Source>),
+    others: &[Source],
+    place: &Place,
+    law: Option<&Source>,
     control: &Control,
 ) -> Result<Option<RestoringForce>, RecordDiagnosisError> {
     let (Place::Dofs(_), Some(leg)) = (place, place.legs().first().copied()) else { return Ok(None) };

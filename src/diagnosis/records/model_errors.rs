@@ -17,7 +17,7 @@ use crate::structure::{Part, Structure};
 const ERRORS: f64 = 6.0;
 const TOGETHER: [f64; 2] = [0.03, 0.25];
 const SLIGHT: f64 = 0.2;
-/// The same where every spring and mass is corrected by itself, five times what one is believed to be off: there it stands for no other.
+/// The same where every spring and mass is corrected by itself, five times what one may plausibly be off: there it stands for no other.
 const OF_PART: f64 = 5.0 * PART;
 
 /// Masses and springs that are errors of the model.

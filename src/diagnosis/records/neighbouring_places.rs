@@ -128,7 +128,7 @@ mod tests {
         let run = decay(5e-3, truth);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         start.known.clear();
         start.effects = vec![dashpot(0)];

@@ -38,15 +38,15 @@ impl Search<'_> {
     pub(super) fn next_tests(&self, fits: &[FittedRecords]) -> Result<Vec<NextTest>, RecordDiagnosisError> {
         let Some(best) = fits.first() else { return Ok(Vec::new()) };
         let other = |f: &&FittedRecords| !f.effects.iter().all(|e| best.effects.iter().any(|b| b.is_same(e)));
-        let Some(rival) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };
+        let Some(candidate) = fits.iter().skip(1).find(other) else { return Ok(Vec::new()) };
         let trials = trials(self.plain);
-        let gain_of_trial = |k: usize| separation(self.plain, &trials[k], [best, rival]).unwrap_or(0.0).min(PLAIN);
+        let gain_of_trial = |k: usize| separation(self.plain, &trials[k], [best, candidate]).unwrap_or(0.0).min(PLAIN);
         let gains = self.control.map(trials.len(), gain_of_trial);
         self.control.check()?;
         let Some(most) = (0..trials.len()).rev().max_by(|&a, &b| gains[a].total_cmp(&gains[b])) else {
             return Ok(Vec::new());
         };
-        let names = [best, rival].map(|f| {
+        let names = [best, candidate].map(|f| {
             let titles: Vec<&str> = f.effects.iter().map(|e| e.effect.title()).collect();
             titles.join(" and ")
         });
@@ -186,7 +186,7 @@ mod tests {
     fn friction_and_a_dashpot_are_told_apart_by_another_amplitude() {
         let (structure, run, control) = (chain(), decay(), Control::unattended());
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let c = 0.1;
         let force = std::f64::consts::FRAC_PI_4 * c * 17.0 * 0.01;
         let fit = |effect, value| {

@@ -119,7 +119,7 @@ impl FitProblem<'_> {
         r: usize,
         steps: Steps,
     ) -> Result<Vec<Vec<f64>>, RecordDiagnosisError> {
-        let response = at.predict_in(steps, self.records, (r, self.samples(r)), &[])?;
+        let response = at.predict_in(steps, self.records, r, self.samples(r), &[])?;
         self.over_noise(r, &response.channels)
     }
 
@@ -159,7 +159,7 @@ impl FitProblem<'_> {
                 parameters.push(*p);
             }
         }
-        let mut response = at.predict_in(steps, self.records, (r, self.samples(r)), &parameters)?;
+        let mut response = at.predict_in(steps, self.records, r, self.samples(r), &parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         let mut derivatives = std::mem::take(&mut response.derivatives);
         self.whiten(r, &mut derivatives);
@@ -192,7 +192,7 @@ impl FitProblem<'_> {
         parameters: &[TransientParameter],
         steps: Steps,
     ) -> Result<(Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>), RecordDiagnosisError> {
-        let mut response = at.predict_in(steps, self.records, (r, self.samples(r)), parameters)?;
+        let mut response = at.predict_in(steps, self.records, r, self.samples(r), parameters)?;
         let left = self.over_noise(r, &response.channels)?;
         self.whiten(r, &mut response.derivatives);
         Ok((left, response.derivatives))

@@ -86,7 +86,7 @@ pub(super) fn corrected_by(fit: &FittedRecords) -> f64 {
 /// (v / s)^2 for v > 0,     k ln(1 + v^2 / (k s^2)) for v < 0,     s = 0.15, k = 3
 /// ```
 ///
-/// Damping beyond what is stated is what a missing effect takes out, and is believed as far as damping is known. Damping below it is no
+/// Damping beyond what is stated is what a missing effect takes out, and is plausible as far as damping is known. Damping below it is no
 /// missing effect, for none puts energy in: there the stated law is wrong in kind, as one in proportion to stiffness is at high modes by
 /// several times, so that the tail is that of Student's distribution (Gelman et al. 2013, Bayesian Data Analysis, section 17.2).
 pub(super) fn cost_of_damping(v: f64) -> f64 {
@@ -119,7 +119,7 @@ pub(super) fn beyond_priors(fit: &FittedRecords) -> FittedRecords {
     }
 }
 
-/// Whether a known source is off, or a mode damped more than stated, by more than is believed without looking for an effect: then it stands
+/// Whether a known source is off, or a mode damped more than stated, by more than is plausible without looking for an effect: then it stands
 /// for something else.
 pub(super) fn is_strained(fit: &FittedRecords) -> bool {
     fit.known.iter().any(|v| v.abs() > LIKELY_SIZE) || fit.damping.iter().any(|v| *v > LIKELY_MODE_DAMPING)
@@ -378,7 +378,7 @@ mod tests {
         };
         let runs = [1.0, 1.003].map(|stiffer| decay(1e-2, vec![(0..8000).map(|n| wave(n, stiffer)).collect()]));
         let (records, control) = (Records::new(&structure, &[], &runs).unwrap(), Control::unattended());
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let whole = search.levels.len() - 1;
         let start = FittedRecords::start(&search.levels[whole], &[]);
         let start = search.carried(&start, whole, 0).unwrap();

@@ -5,7 +5,7 @@ use super::fitted::FittedRecords;
 use crate::effects::{Effect, Source};
 use std::sync::{Mutex, PoisonError};
 
-/// Most rivals whose last law is of the family of that of a better one at the same place, or that law at another place: laws of one family
+/// Most candidates whose last law is of the family of that of a better one at the same place, or that law at another place: laws of one family
 /// share their special cases and fit the same data, neighbouring places see the same motion, so that more than two add nothing.
 pub(super) const MOST_OF_FAMILY: usize = 2;
 /// Evidence by which a fit must be behind one that leaves no more than noise to be pruned on longer segments: a descent that ended after
@@ -15,27 +15,27 @@ const FAR: f64 = 240.0;
 
 /// The first `count` of some fits, best first, and that which leaves least; of laws of one family at a place, and of one law, the first
 /// [`MOST_OF_FAMILY`] only, as long as there are others. On short segments the evidence is with the plainer law.
-pub(super) fn diverse(rivals: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
+pub(super) fn diverse(candidates: &[FittedRecords], count: usize) -> Vec<FittedRecords> {
     let mut taken: Vec<usize> = Vec::new();
-    for (k, rival) in rivals.iter().enumerate() {
+    for (k, candidate) in candidates.iter().enumerate() {
         let beside = |alike: fn(&FittedRecords, &FittedRecords) -> bool| {
-            taken.iter().filter(|&&t| alike(&rivals[t], rival)).count() < MOST_OF_FAMILY
+            taken.iter().filter(|&&t| alike(&candidates[t], candidate)).count() < MOST_OF_FAMILY
         };
         if beside(is_same_family) && beside(is_same_law) && taken.len() < count {
             taken.push(k);
         }
     }
-    let others: Vec<usize> = (0..rivals.len()).filter(|k| !taken.contains(k)).collect();
+    let others: Vec<usize> = (0..candidates.len()).filter(|k| !taken.contains(k)).collect();
     taken.extend(others.into_iter().take(count - taken.len().min(count)));
-    let least = (0..rivals.len()).min_by(|&a, &b| rivals[a].chi_square.total_cmp(&rivals[b].chi_square));
+    let least = (0..candidates.len()).min_by(|&a, &b| candidates[a].chi_square.total_cmp(&candidates[b].chi_square));
     taken.extend(least.filter(|k| !taken.contains(k)));
     taken.sort_unstable();
-    taken.into_iter().map(|k| rivals[k].clone()).collect()
+    taken.into_iter().map(|k| candidates[k].clone()).collect()
 }
 
 /// Some fits, best first, without those whose last law contains that of a better one at the same place and leaves no less: what it has
 /// more is begun anew on whole records, where it can show.
-pub(super) fn without_needless_generalisations(rivals: &[FittedRecords]) -> Vec<FittedRecords> {
+pub(super) fn without_needless_generalisations(candidates: &[FittedRecords]) -> Vec<FittedRecords> {
     let is_needless = |wide: &FittedRecords, narrow: &FittedRecords| {
         let (Some(a), Some(b)) = (wide.effects.last(), narrow.effects.last()) else { return false };
         let others = |fit: &FittedRecords| fit.effects[..fit.effects.len() - 1].to_vec();
@@ -45,8 +45,10 @@ pub(super) fn without_needless_generalisations(rivals: &[FittedRecords]) -> Vec<
             && is_same_set(&others(wide), &others(narrow))
             && wide.chi_square >= narrow.chi_square
     };
-    let kept =
-        rivals.iter().enumerate().filter(|(k, wide)| !rivals[..*k].iter().any(|narrow| is_needless(wide, narrow)));
+    let kept = candidates
+        .iter()
+        .enumerate()
+        .filter(|(k, wide)| !candidates[..*k].iter().any(|narrow| is_needless(wide, narrow)));
     kept.map(|(_, fit)| fit.clone()).collect()
 }
 
@@ -78,7 +80,7 @@ pub(super) fn is_same_set(a: &[Source], b: &[Source]) -> bool {
 /// Sets of effects that a search follows no longer.
 #[derive(Debug, Default)]
 pub(super) struct PrunedSets {
-    hopeless: Sets,
+    excessive: Sets,
     behind: Sets,
 }
 
@@ -99,17 +101,17 @@ impl Sets {
 }
 
 impl PrunedSets {
-    /// Whether a set is not to be begun beside `best`: it left hopelessly much, or is far behind where `best` leaves no more than noise.
+    /// Whether a set is not to be begun beside `best`: it left far too much, or is far behind where `best` leaves no more than noise.
     pub(super) fn holds(&self, effects: &[Source], best: &FittedRecords) -> bool {
-        self.hopeless.holds(effects) || (misfit(best) < AGREES && self.behind.holds(effects))
+        self.excessive.holds(effects) || (misfit(best) < AGREES && self.behind.holds(effects))
     }
 
-    /// Prunes the fits that leave `hopeless` times the least that any of them leaves, or that `noise` times the number of samples; and,
+    /// Prunes the fits that leave `most` times the least that any of them leaves, or that `noise` times the number of samples; and,
     /// beside one that leaves no more than noise, those that are [`FAR`] behind it.
-    pub(super) fn add_all(&self, found: &[FittedRecords], hopeless: f64, noise: f64) {
+    pub(super) fn add_all(&self, found: &[FittedRecords], most: f64, noise: f64) {
         let Some(best) = found.iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square)) else { return };
         let least = |f: &FittedRecords| best.chi_square.max(noise * f.count as f64);
-        self.hopeless.add(found.iter().filter(|f| f.chi_square > hopeless * least(f)));
+        self.excessive.add(found.iter().filter(|f| f.chi_square > most * least(f)));
         let (unit, explained) = (scale(best), misfit(best) < AGREES);
         let far = |f: &&FittedRecords| explained && evidence(f, unit) > evidence(best, unit) + FAR;
         self.behind.add(found.iter().filter(far));
@@ -131,23 +133,23 @@ mod tests {
     #[test]
     fn laws_of_another_family_are_carried_on_beside_four_of_one() {
         let family = [Effect::Dahl, Effect::BoucWen, Effect::ElasticSlider, Effect::Iwan];
-        let mut rivals: Vec<FittedRecords> = family.iter().map(|law| fit(*law, 1.0)).collect();
-        rivals.push(fit(Effect::Power, 2.0));
+        let mut candidates: Vec<FittedRecords> = family.iter().map(|law| fit(*law, 1.0)).collect();
+        candidates.push(fit(Effect::Power, 2.0));
         let laws = |fits: Vec<FittedRecords>| fits.iter().map(|f| f.effects[0].effect).collect::<Vec<_>>();
-        let carried = laws(diverse(&rivals, 4));
+        let carried = laws(diverse(&candidates, 4));
         assert_eq!(carried.len(), 4);
         assert!(carried.contains(&Effect::Power), "{carried:?}");
-        let mut rivals: Vec<FittedRecords> = (0..4).map(|_| fit(Effect::Coulomb, 1.0)).collect();
-        (0..).zip(&mut rivals).for_each(|(dof, rival)| rival.effects[0].place = Place::Dofs(vec![dof]));
-        rivals.push(fit(Effect::Power, 2.0));
-        assert!(laws(diverse(&rivals, 3)).contains(&Effect::Power));
+        let mut candidates: Vec<FittedRecords> = (0..4).map(|_| fit(Effect::Coulomb, 1.0)).collect();
+        (0..).zip(&mut candidates).for_each(|(dof, candidate)| candidate.effects[0].place = Place::Dofs(vec![dof]));
+        candidates.push(fit(Effect::Power, 2.0));
+        assert!(laws(diverse(&candidates, 3)).contains(&Effect::Power));
         // The one that leaves least is beside the plainer ones that are before it.
         let kin = [(Effect::ElasticSlider, 3.0), (Effect::Dahl, 2.5), (Effect::BoucWen, 1.0)];
         let kin: Vec<FittedRecords> = kin.into_iter().map(|(law, left)| fit(law, left)).collect();
         assert_eq!(laws(diverse(&kin, 2)).last(), Some(&Effect::BoucWen));
         // Where there is nothing else all of one family are.
-        rivals.pop();
-        assert_eq!(laws(diverse(&rivals, 4)).len(), 4);
+        candidates.pop();
+        assert_eq!(laws(diverse(&candidates, 4)).len(), 4);
     }
 
     #[test]

@@ -171,7 +171,7 @@ mod tests {
         truth.initial.iter_mut().for_each(|state| state[..2].copy_from_slice(&[1e-2, 1e-2]));
         let runs = decays(&drawn, &truth);
         let (records, control) = (Records::new(&structure, &known, &runs).unwrap(), Control::unattended());
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let records = search.whole();
         let start = FittedRecords { initial: truth.initial, ..FittedRecords::start(records, &[]) };
         let fit = |corrections: Vec<bool>, start: &FittedRecords| {

@@ -146,7 +146,7 @@ impl<'a> ScoreTest<'a> {
         let fit = self.fit;
         let parts = self.records.parts.logarithms(&fit.parts);
         let errors = self.records.shape_errors(record, &fit.shapes);
-        let setup = self.records.setup(record, &self.linear, fit.factors(r), ([&fit.modes, &fit.damping], &parts));
+        let setup = self.records.setup(record, &self.linear, fit.factors(r), [&fit.modes, &fit.damping], &parts);
         let model = TransientModel::new(&TransientSetup { drives: &drives, shape_errors: &errors, ..setup })
             .map_err(|reason| RecordDiagnosisError::Model { file: record.file.clone(), reason })?;
         let motion = self.motion.relative(leg, r).ok_or(RecordDiagnosisError::Singular)?;

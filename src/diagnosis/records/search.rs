@@ -38,7 +38,7 @@ const PROMISED: f64 = 0.18;
 const FOUND: f64 = 0.67;
 /// Modes up to which places tell little and one law is easily taken for another: there more is tried.
 pub(super) const FEW_MODES: usize = 2;
-/// Rivals of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
+/// Candidates of the best set beside which a further effect is looked for, and the squared residual over that of the best up to which.
 const BESIDE: usize = 1;
 const NEAR: f64 = 2.0;
 /// Levels of parts on which effects are added; on whole records where there are no more levels than that, or nothing was found.
@@ -47,7 +47,7 @@ pub(super) const GROWING: usize = 2;
 const BEGUN: usize = 28;
 /// Squared residual over the least one, or over that of half the noise, beyond which a fit is not followed further: after the
 /// first steps, and on longer parts.
-pub(super) const HOPELESS: [f64; 2] = [12.0, 3.0];
+pub(super) const MOST_LEFT: [f64; 2] = [12.0, 3.0];
 pub(super) const NOISE: f64 = 0.5;
 
 /// The search for what is missing in some records.
@@ -63,7 +63,7 @@ pub(super) struct Search<'a> {
     pub stated: &'a Structure,
     pub supports: &'a [Correction],
     pub control: &'a Control,
-    /// Sets with a neighbour of the best law that left hopelessly much on shorter segments, where no phase is lost.
+    /// Sets with a neighbour of the best law that left far too much on shorter segments, where no phase is lost.
     pub pruned: PrunedSets,
     /// Laws that are looked for.
     pub laws: Vec<Effect>,
@@ -88,11 +88,13 @@ pub(super) struct SetsBySize {
 }
 
 impl<'a> Search<'a> {
-    /// Of `weighted` records and the same `plain`.
+    /// Of `weighted` records and the same `plain`, of the structure as it is `stated` with `supports` that give way.
     pub(super) fn new(
         weighted: &'a Records<'a>,
         plain: &'a Records<'a>,
-        (excluded, stated, supports): (&'a [Source], &'a Structure, &'a [Correction]),
+        excluded: &'a [Source],
+        stated: &'a Structure,
+        supports: &'a [Correction],
         control: &'a Control,
     ) -> Self {
         let (levels, pruned, motions) = (weighted.levels(), PrunedSets::default(), OnceLock::new());
@@ -188,21 +190,21 @@ impl Search<'_> {
             .improve(start, 3)
     }
 
-    /// Fits of the best of `rivals` with one effect more, best first, and of those that leave hardly more: which of two laws comes
+    /// Fits of the best of `candidates` with one effect more, best first, and of those that leave hardly more: which of two laws comes
     /// first may be told by what comes second.
-    pub(super) fn beside_rivals(
+    pub(super) fn beside_candidates(
         &self,
         level: usize,
-        rivals: &[FittedRecords],
+        candidates: &[FittedRecords],
         bare: &FittedRecords,
     ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
-        let Some(best) = rivals.first() else { return Ok(Vec::new()) };
+        let Some(best) = candidates.first() else { return Ok(Vec::new()) };
         let mut found = self.extended(level, best, bare)?;
         let near = |f: &&FittedRecords| {
             self.records.kept <= FEW_MODES && !best.effects.is_empty() && f.chi_square < NEAR * best.chi_square
         };
-        for rival in rivals.iter().skip(1).filter(near).take(BESIDE) {
-            for more in self.extended(level, rival, bare)? {
+        for candidate in candidates.iter().skip(1).filter(near).take(BESIDE) {
+            for more in self.extended(level, candidate, bare)? {
                 if !found.iter().any(|f| is_same_set(&f.effects, &more.effects)) {
                     found.push(more);
                 }
@@ -238,10 +240,10 @@ impl Search<'_> {
         let mut found: Vec<FittedRecords> = Vec::new();
         add_begun(&mut found, self.multi_start_fits(level, &starts, free));
         self.control.check()?;
-        keep(&mut found, FOLLOWED, HOPELESS[0]);
+        keep(&mut found, FOLLOWED, MOST_LEFT[0]);
         let follow = |k: usize| self.fit(level, &found[k], 1.0, FOLLOWING).ok();
         let mut followed: Vec<FittedRecords> = self.control.map(found.len(), follow).into_iter().flatten().collect();
-        keep(&mut followed, FOLLOWED, HOPELESS[0]);
+        keep(&mut followed, FOLLOWED, MOST_LEFT[0]);
         self.control.check()?;
         let ended = self.control.map(followed.len().min(ENDED), |k| self.to_its_end(level, &followed[k]).ok());
         followed.iter_mut().zip(ended).for_each(|(own, ended)| *own = ended.unwrap_or_else(|| own.clone()));
@@ -297,7 +299,7 @@ impl Search<'_> {
             }
             found = self.with_begun(level, found, &starts)?;
         }
-        let mut elsewhere = self.starts_at_rival_places(level, &found)?;
+        let mut elsewhere = self.starts_at_candidate_places(level, &found)?;
         if level < GROWING && !self.control.is_late() {
             elsewhere.extend(self.starts_of_equal_work(level, &found));
         }
@@ -315,7 +317,7 @@ impl Search<'_> {
         if whole { self.told_as_special_cases(level, found) } else { Ok(found) }
     }
 
-    /// Fits with those that are begun at `starts`, best first; what leaves hopelessly much is pruned.
+    /// Fits with those that are begun at `starts`, best first; what leaves far too much is pruned.
     pub(super) fn with_begun(
         &self,
         level: usize,
@@ -329,14 +331,14 @@ impl Search<'_> {
         add_begun(&mut begun, self.multi_start_fits(level, starts, false));
         begun.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         let least = found.iter().chain(&begun).map(|f| f.chi_square).fold(f64::INFINITY, f64::min);
-        let hopeful = |f: &&FittedRecords| f.chi_square <= HOPELESS[0] * least.max(NOISE * f.count as f64);
-        let few = begun.iter().take(FOLLOWED_BESIDE).take_while(hopeful).count();
+        let is_near = |f: &&FittedRecords| f.chi_square <= MOST_LEFT[0] * least.max(NOISE * f.count as f64);
+        let few = begun.iter().take(FOLLOWED_BESIDE).take_while(is_near).count();
         let others = begun.split_off(few);
         add_begun(&mut found, fits(&begun, FOLLOWING));
         add_begun(&mut found, others.into_iter().map(Some).collect());
         self.control.check()?;
         if !self.control.is_late() {
-            self.pruned.add_all(&found, HOPELESS[0], NOISE);
+            self.pruned.add_all(&found, MOST_LEFT[0], NOISE);
         }
         Ok(self.sorted(level, found))
     }
@@ -370,10 +372,10 @@ pub(super) fn add_begun(found: &mut Vec<FittedRecords>, begun: Vec<Option<Fitted
     }
 }
 
-/// The best `count` by their squared residual, none of them `hopeless` times the least.
-pub(super) fn keep(found: &mut Vec<FittedRecords>, count: usize, hopeless: f64) {
+/// The best `count` by their squared residual, none of them `most` times the least.
+pub(super) fn keep(found: &mut Vec<FittedRecords>, count: usize, most: f64) {
     found.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     found.truncate(count);
     let least = found.first().map_or(0.0, |f| f.chi_square);
-    found.retain(|f| f.chi_square <= hopeless * least.max(NOISE * f.count as f64));
+    found.retain(|f| f.chi_square <= most * least.max(NOISE * f.count as f64));
 }

@@ -25,7 +25,7 @@ const STEPS: usize = 10;
 /// Fewest modes whose frequencies can tell a place.
 const FEWEST_MODES: usize = 3;
 /// Corrections over their prior deviations up to which they are errors as every model has them, which stand for nothing else.
-const BELIEVED: f64 = 2.0;
+const PLAUSIBLE: f64 = 2.0;
 /// The largest from which on it is asked whether one mass or spring beside all corrections makes it ordinary.
 const OUTLYING: f64 = 4.0;
 /// Rounds and steps of a fit beside all corrections, times that it goes on, and the gain of evidence below which it does not.
@@ -43,7 +43,7 @@ impl Search<'_> {
         if alone.is_empty() { self.changes_beside(corrected) } else { Ok(alone) }
     }
 
-    /// Those beside all corrections, of which one is far beyond what is believed.
+    /// Those beside all corrections, of which one is far beyond what is plausible.
     fn changes_beside(&self, corrected: &FittedRecords) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let level = self.levels.len() - 1;
         if misfit(corrected) > AGREES || !self.is_outlying(corrected) || self.control.is_late() {
@@ -75,7 +75,7 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// `corrected` with a mass or spring in place of each part that is corrected far beyond what is believed.
+    /// `corrected` with a mass or spring in place of each part that is corrected far beyond what is plausible.
     fn in_place_of_parts(&self, corrected: &FittedRecords) -> Vec<FittedRecords> {
         let (records, structure) = (self.records, self.records.structure);
         let in_place_of = |(p, (part, logarithm)): (usize, (Part, f64))| {
@@ -98,14 +98,14 @@ impl Search<'_> {
         starts.filter(|s| !self.excluded.iter().any(|e| s.effects.iter().any(|own| own.is_same(e)))).collect()
     }
 
-    /// Whether the best set of one mass or spring is more likely than `corrected`, which needs a correction far beyond what is believed.
+    /// Whether the best set of one mass or spring is more likely than `corrected`, which needs a correction far beyond what is plausible.
     pub(super) fn is_plainer(&self, by_size: &SetsBySize, corrected: &FittedRecords) -> bool {
         let unit = scale(corrected);
         let gain = |single: &FittedRecords| evidence(corrected, unit) - evidence(single, unit);
         self.is_outlying(corrected) && by_size.last.first().is_some_and(|single| gain(single) > GAIN)
     }
 
-    /// Whether one correction of a fit of whole records is far beyond what is believed.
+    /// Whether one correction of a fit of whole records is far beyond what is plausible.
     fn is_outlying(&self, fit: &FittedRecords) -> bool {
         let parts = self.records.parts.logarithms(&fit.parts);
         let most = parts.iter().map(|(_, v)| v.abs() / PART).fold(0.0, f64::max);
@@ -119,7 +119,7 @@ impl Search<'_> {
             FitProblem { records, free: Free::but_modes(records), share: 1.0, control: self.control }
                 .improve(start, STEPS)
         };
-        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES || largest_correction(corrected) < BELIEVED {
+        if modes(records) < FEWEST_MODES || misfit(corrected) > AGREES || largest_correction(corrected) < PLAUSIBLE {
             return Ok(Vec::new());
         }
         let by_parts = records.stiffness_by_parts(&corrected.parts);

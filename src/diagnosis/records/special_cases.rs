@@ -64,7 +64,7 @@ impl Search<'_> {
             inside && self.laws.contains(&s.effect) && !fit.effects.iter().chain(self.excluded).any(|e| e.is_same(s))
         };
         let in_place = |limit: Source| {
-            let of_its_force = self.with_equal_force(law, limit.clone(), (leg, &motion, level)).unwrap_or(limit);
+            let of_its_force = self.with_equal_force(law, limit.clone(), leg, &motion, level).unwrap_or(limit);
             let mut start = fit.clone();
             start.effects.pop();
             start.effects.push(of_its_force);
@@ -97,7 +97,7 @@ mod tests {
         let run = decay(1e-2, vec![(0..400).map(wave).collect()]);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let level = search.levels.len() - 1;
         let start = FittedRecords::start(&search.levels[level], &[source(effect, &[0], parameters)]);
         let fit = search.quiet(level, &start).unwrap();

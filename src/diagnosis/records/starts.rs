@@ -129,7 +129,7 @@ impl Search<'_> {
         let of_its_force = |source: Source| {
             let along = leg
                 .zip(motion.as_ref())
-                .and_then(|(leg, motion)| self.with_equal_force(law, source.clone(), (leg, motion, level)));
+                .and_then(|(leg, motion)| self.with_equal_force(law, source.clone(), leg, motion, level));
             along.unwrap_or(source)
         };
         let in_place = |source: Source| {

@@ -212,7 +212,7 @@ impl Search<'_> {
         let free = Free { corrections, shifts: true, shapes: !self.whole().has_one_shape(), effects: false };
         let problem = FitProblem { records: self.whole(), free, share: 1.0, control: self.control };
         match problem.chord_fit(start, ROUNDS) {
-            // A start without its corrections may run away: then it is no rival.
+            // A start without its corrections may run away: then it does not compete.
             Err(RecordDiagnosisError::Model { .. }) => Ok(FittedRecords { chi_square: f64::INFINITY, ..start.clone() }),
             other => other,
         }
@@ -346,7 +346,7 @@ mod tests {
         let known = [source(Effect::Viscous, &[0], &[2.0])];
         let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let mut deviations = vec![0.1; effect.parameters.len() + 2];
         deviations.push(0.0);
         let start = FittedRecords::start(&records, &[effect]);
@@ -367,7 +367,7 @@ mod tests {
         let known = [whole(Effect::StiffnessProportional, 1e-3)];
         let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let fit = FittedRecords { known: vec![0.2], ..FittedRecords::start(&records, &[]) };
         let (by_damping, _) = search.by_sizes(&fit).swap_remove(1);
         let [free, bent] = by_damping.damping[..] else { panic!("{:?}", by_damping.damping) };

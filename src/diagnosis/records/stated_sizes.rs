@@ -9,7 +9,7 @@ use super::search::Search;
 use crate::diagnosis::updating::detuning::LIKELY_SIZE;
 use crate::effects::{Constant, Leg, Source};
 
-/// Logarithm of the factor on all mass or all stiffness that is believed without looking for an effect.
+/// Logarithm of the factor on all mass or all stiffness that is plausible without looking for an effect.
 const LIKELY_PART: f64 = 0.2;
 
 impl Search<'_> {
@@ -33,7 +33,7 @@ impl Search<'_> {
         self.records.known.iter().position(same)
     }
 
-    /// A fit without its last effect where that corrects what is stated, within what is believed of it: one more of a source that is known at
+    /// A fit without its last effect where that corrects what is stated, within what is plausible of it: one more of a source that is known at
     /// its place, or, of a single shape, a mass or a spring, which are all mass and all stiffness.
     pub(super) fn as_correction(
         &self,
@@ -47,7 +47,7 @@ impl Search<'_> {
         Ok(corrected.filter(is_plainer))
     }
 
-    /// Where such a fit begins; `None` where the last effect corrects nothing that is stated, or more than is believed.
+    /// Where such a fit begins; `None` where the last effect corrects nothing that is stated, or more than is plausible.
     fn with_last_as_correction(&self, fit: &FittedRecords) -> Option<FittedRecords> {
         let (last, others) = fit.effects.split_last()?;
         let mut start = FittedRecords { effects: others.to_vec(), ..fit.clone() };
@@ -73,7 +73,7 @@ impl Search<'_> {
     }
 }
 
-/// Whether known sources, all mass and all stiffness are off by no more than is believed without looking for an effect.
+/// Whether known sources, all mass and all stiffness are off by no more than is plausible without looking for an effect.
 fn is_believed(fit: &FittedRecords) -> bool {
     fit.known.iter().all(|v| v.abs() < LIKELY_SIZE) && [fit.mass, fit.stiffness].iter().all(|v| v.abs() < LIKELY_PART)
 }
@@ -96,7 +96,7 @@ mod tests {
         let known = [source(Effect::Viscous, &[0], &[2.0])];
         let records = Records::new(&structure, &known, std::slice::from_ref(&run)).unwrap();
         let control = Control::unattended();
-        let search = Search::new(&records, &records, (&[], &structure, &[]), &control);
+        let search = Search::new(&records, &records, &[], &structure, &[], &control);
         let start = FittedRecords::start(search.whole(), &[effect]);
         look(&search, FittedRecords { known: vec![1.5_f64.ln()], prior: 9.0, ..start });
     }
