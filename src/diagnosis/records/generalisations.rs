@@ -29,7 +29,7 @@ impl Search<'_> {
         generalised: &mut Vec<Source>,
     ) -> Result<Vec<FittedRecords>, RecordDiagnosisError> {
         let mut starts = self.special_case_starts(level, found);
-        if !is_generalised(found, generalised)
+        if !Self::is_generalised(found, generalised)
             && let Some(best) = found.first().and_then(|f| f.effects.last())
         {
             let mut general = self.generalised_starts(level, found)?;
@@ -40,6 +40,12 @@ impl Search<'_> {
         }
         starts.retain(|s| found.first().is_none_or(|best| !self.pruned.holds(&s.effects, best)));
         Ok(starts)
+    }
+
+    /// Whether the last law of the best is among those `generalised`, at the same place.
+    pub(super) fn is_generalised(found: &[FittedRecords], generalised: &[Source]) -> bool {
+        let best = found.first().and_then(|f| f.effects.last());
+        best.is_none_or(|best| generalised.iter().any(|law| law.is_same(best)))
     }
 
     /// The best of `found` with its last law replaced by generalisations, at the shapes that leave least; on segments of records none
@@ -157,12 +163,6 @@ impl Search<'_> {
         let allowed = source.parameters.iter().zip(source.effect.parameters()).all(|(v, p)| p.allows(*v));
         (factor.is_finite() && factor != 0.0 && allowed).then_some(source)
     }
-}
-
-/// Whether the last law of the best is among those `generalised`, at the same place.
-pub(super) fn is_generalised(found: &[FittedRecords], generalised: &[Source]) -> bool {
-    let best = found.first().and_then(|f| f.effects.last());
-    best.is_none_or(|best| generalised.iter().any(|law| law.is_same(best)))
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ use super::compare::first_states;
 use super::data::{RecordData, RecordDiagnosisError, Records};
 use super::evidence::{AGREES, GAIN, evidence, information, misfit, scale};
 use super::fitted::FittedRecords;
-use super::generalisations::is_generalised;
 use super::laws::laws_seen_in;
 use super::problem::{FitProblem, Free};
 use super::pruning::{PrunedSets, is_same_set};
@@ -306,7 +305,7 @@ impl Search<'_> {
         if !elsewhere.is_empty() {
             found = self.with_begun(level, found, &elsewhere)?;
             // At its new place it may be a special case as well.
-            if !is_generalised(&found, &generalised) {
+            if !Self::is_generalised(&found, &generalised) {
                 let starts = self.neighbour_starts(level, &found, &mut generalised)?;
                 found = self.with_begun(level, found, &starts)?;
             }
