@@ -265,11 +265,14 @@ mod tests {
         best.initial[0][0] = 2e-2;
         (best.chi_square, best.count) = (1e6, 7200);
         best.effects = vec![at(Effect::Quadratic, 2, &[0.9])];
+        let found = std::slice::from_ref(&best);
         let mut generalised = vec![at(Effect::Quadratic, 1, &[0.9])];
-        let mut starts = || search.neighbour_starts(whole, std::slice::from_ref(&best), &mut generalised).unwrap();
-        let has_power = |starts: &[FittedRecords]| starts.iter().any(|s| s.effects[0].effect == Effect::Power);
-        let first = starts();
-        assert!(has_power(&first) && first.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])));
-        assert!(!has_power(&starts()));
+        assert!(!Search::is_generalised(found, &generalised));
+        for _ in 0..2 {
+            let starts = search.neighbour_starts(whole, found, &mut generalised).unwrap();
+            assert!(starts.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])), "{:?}", generalised);
+            assert!(Search::is_generalised(found, &generalised));
+            assert_eq!(generalised.len(), 2);
+        }
     }
 }
