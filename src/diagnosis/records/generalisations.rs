@@ -270,7 +270,7 @@ mod tests {
         assert!(!Search::is_generalised(found, &generalised));
         for _ in 0..2 {
             let starts = search.neighbour_starts(whole, found, &mut generalised).unwrap();
-            assert!(starts.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])), "{:?}", generalised);
+            assert!(starts.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])), "{generalised:?}");
             assert!(Search::is_generalised(found, &generalised));
             assert_eq!(generalised.len(), 2);
         }
