@@ -203,8 +203,8 @@ mod tests {
         Source::known(effect, Place::Dofs(vec![dof]), parameters)
     }
 
-    /// Starts beside some fits, each of one effect with its squared residual: special cases, and candidate places.
-    fn starts(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
+    /// Does a test with a search, on the level of whole records, and fits, each of one effect with its squared residual.
+    fn with_fits<T>(fits: &[(Source, f64)], test: impl FnOnce(&Search<'_>, usize, &[FittedRecords]) -> T) -> T {
         let structure = chain();
         let run = decay(&structure);
         let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
@@ -219,12 +219,18 @@ mod tests {
             count: 7200,
             ..bare.clone()
         };
-        let found: Vec<FittedRecords> = fits.iter().map(fit).collect();
+        test(&search, whole, &fits.iter().map(fit).collect::<Vec<_>>())
+    }
+
+    /// Starts beside some fits: special cases, and candidate places.
+    fn starts(fits: &[(Source, f64)]) -> [Vec<Source>; 2] {
         let laws = |list: Vec<FittedRecords>| list.into_iter().filter_map(|mut f| f.effects.pop()).collect();
-        [
-            laws(search.special_case_starts(whole, &found)),
-            laws(search.starts_at_candidate_places(whole, &found).unwrap()),
-        ]
+        with_fits(fits, |search, whole, found| {
+            [
+                laws(search.special_case_starts(whole, found)),
+                laws(search.starts_at_candidate_places(whole, found).unwrap()),
+            ]
+        })
     }
 
     /// A power law of exponent 1 is a dashpot: where the fit of one was cut off it begins again, with the same force.
@@ -255,24 +261,14 @@ mod tests {
     /// A law that was generalised at one place is so at the next that it comes to, and there once.
     #[test]
     fn a_law_is_generalised_at_every_place_where_it_is_the_best() {
-        let structure = chain();
-        let run = decay(&structure);
-        let records = Records::new(&structure, &[], std::slice::from_ref(&run)).unwrap();
-        let control = Control::unattended();
-        let search = Search::new(&records, &records, &[], &structure, &[], &control);
-        let whole = search.levels.len() - 1;
-        let mut best = FittedRecords::start(&search.levels[whole], &[]);
-        best.initial[0][0] = 2e-2;
-        (best.chi_square, best.count) = (1e6, 7200);
-        best.effects = vec![at(Effect::Quadratic, 2, &[0.9])];
-        let found = std::slice::from_ref(&best);
-        let mut generalised = vec![at(Effect::Quadratic, 1, &[0.9])];
-        assert!(!Search::is_generalised(found, &generalised));
-        for _ in 0..2 {
-            let starts = search.neighbour_starts(whole, found, &mut generalised).unwrap();
-            assert!(starts.iter().all(|s| s.effects[0].place == Place::Dofs(vec![2])), "{generalised:?}");
-            assert!(Search::is_generalised(found, &generalised));
-            assert_eq!(generalised.len(), 2);
-        }
+        with_fits(&[(at(Effect::Quadratic, 2, &[0.9]), 1e6)], |search, whole, found| {
+            let mut generalised = vec![at(Effect::Quadratic, 1, &[0.9])];
+            assert!(!Search::is_generalised(found, &generalised));
+            for _ in 0..2 {
+                search.neighbour_starts(whole, found, &mut generalised).unwrap();
+                assert!(Search::is_generalised(found, &generalised));
+                assert_eq!(generalised.len(), 2);
+            }
+        });
     }
 }

@@ -21,9 +21,15 @@ pub(crate) fn sentences(
     let percent = |share: f64| significant(100.0 * share, 3);
     let on = if reference.data.chosen { " on the runs that were searched" } else { "" };
     said.push(format!("With it alone the error{on} goes from {} % to {} %.", percent(before), percent(after)));
-    if after > before {
-        let left = percent(reference.error_beside_jumps(&best.effects, &best.starts)?);
-        said.push(format!("Beside the runs that may lie beyond a jump, one in eight, it leaves {left} %."));
+    // Of a set the error told is that of the effect alone, and there is no fit of it to ask.
+    if after > before && best.effects.len() == 1 {
+        let left = reference.error_beside_jumps(&best.effects, &best.starts)?;
+        if left < before {
+            said.push(format!(
+                "Without the runs that may lie beyond a jump, one in eight, it leaves {} %.",
+                percent(left)
+            ));
+        }
     }
     match &source.place {
         Place::Dofs(_) => {
