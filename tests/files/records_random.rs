@@ -5,6 +5,20 @@ use dashpot::control::Control;
 use dashpot::exchange::records::{parse_harmonics, parse_record};
 use proptest::prelude::*;
 
+/// A unit may stand below its name in a quoted cell, and so may what is no name at all: found by the damage below.
+#[test]
+fn names_of_two_lines_are_refused_in_one() {
+    let beam = cantilever(2);
+    for text in [
+        "time [s],\"force@1 [N],acc@3 [m/s^2]\nc",
+        "\"time\n[ms]\",force@1 [N]\n0,1\n",
+        "time [s],\"acc@99\n[g]\"\n0,1\n",
+    ] {
+        let said = parse_record(text.as_bytes(), "x", &beam, &Control::unattended()).unwrap_err().to_string();
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+}
+
 proptest! {
     /// A good record with pieces changed, lost, doubled or put in: it is read, or refused in one line, as fast as a good one.
     #[test]

@@ -25,9 +25,11 @@ impl fmt::Display for RecordFileError {
             write!(f, ", line {line}")?;
         }
         if let Some(column) = &self.column {
-            write!(f, ", {column}")?;
+            write!(f, ", {}", column.replace(char::is_control, " "))?;
         }
-        write!(f, ": {}", self.problem)
+        // A quoted cell may hold line breaks, and a message that repeats it stays on one line.
+        let problem = self.problem.to_string();
+        write!(f, ": {}", problem.replace(char::is_control, " "))
     }
 }
 
