@@ -156,34 +156,35 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
         return Ok(Ok(diagnosis));
     }
     let (control, stated) = (reference.control, reference.clone());
-    let from_one_level = || match one_level::explain(problem, &stated, before)? {
-        Some(outcome) => outcome.conclude(diagnosis.clone()).map(Some),
-        None => Ok(None),
+    let from_one_level = || -> Result<Result<Option<Diagnosis>, ChannelFault>, DiagnosisError> {
+        match one_level::explain(problem, &stated, before)? {
+            Ok(outcome) => outcome.map(|outcome| outcome.conclude(diagnosis.clone())).transpose().map(Ok),
+            Err(fault) => Ok(Err(fault)),
+        }
     };
     let far = one_level::is_far_at_one_level(problem, &stated);
-    let of_level = if far { from_one_level()? } else { None };
-    if let Some(told) = of_level.as_ref().filter(|told| told.verdict == Verdict::Missing) {
-        return Ok(Ok(told.clone()));
-    }
+    let of_level = if far { from_one_level()? } else { Ok(None) };
+    let of_level = match of_level {
+        Ok(Some(told)) if told.verdict == Verdict::Missing => return Ok(Ok(told)),
+        Ok(of_level) => of_level,
+        Err(fault) => return Ok(Err(fault)),
+    };
     let mut told = match stepwise::explain(reference, before)? {
         Ok(outcome) => outcome.conclude(diagnosis.clone())?,
         Err(fault) => return Ok(Err(fault)),
     };
     // Harmonics that excite modes above the band, which the model misses by more than their width, point anywhere.
-    if told.verdict == Verdict::Unexplained
-        && !control.is_late()
-        && let Ok(outcome) = stepwise::explain(stated.doubting_harmonics(), before)?
-    {
-        let second = outcome.conclude(diagnosis.clone())?;
+    if told.verdict == Verdict::Unexplained && !control.is_late() {
+        let second = match stepwise::explain(stated.doubting_harmonics(), before)? {
+            Ok(outcome) => outcome.conclude(diagnosis.clone())?,
+            Err(fault) => return Ok(Err(fault)),
+        };
         let better = second.verdict != Verdict::Unexplained || left(&second) < LESS * left(&told);
         told = if better { second } else { told };
     }
     let open = matches!(told.verdict, Verdict::Unexplained | Verdict::Undecided);
-    let of_level = if open && !far && !control.is_late() { from_one_level()? } else { of_level };
-    Ok(Ok(match of_level {
-        Some(other) if open && is_better(&other, &told) => other,
-        _ => told,
-    }))
+    let of_level = if open && !far && !control.is_late() { from_one_level()? } else { Ok(of_level) };
+    Ok(of_level.map(|of_level| of_level.filter(|other| open && is_better(other, &told)).unwrap_or(told)))
 }
 
 /// Error that what is told leaves.

@@ -27,11 +27,13 @@ pub(crate) use in_time::find_in_time;
 pub(crate) use search::{find, place_of_force};
 
 use crate::diagnosis::residual::data::{ChannelData, Data};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// The data with the faults mended: what a channel reads divided by its factor, what two exchanged channels read exchanged.
 pub(crate) fn mended(data: &Data, faults: &[ChannelFault]) -> Data {
     let mut data = data.clone();
-    data.doubted |= faults.iter().any(|fault| matches!(fault.fault, Fault::Unreliable(_)));
+    let unreliable = faults.iter().filter(|fault| matches!(fault.fault, Fault::Unreliable(_)));
+    data.doubted.extend(unreliable.map(|fault| fault.channels[0].clone()));
     for run in &mut data.runs {
         for fault in faults {
             let is_first = |channel: &&mut ChannelData| channel.name == fault.channels[0];
@@ -66,10 +68,10 @@ fn divide(channel: &mut ChannelData, factor: f64) {
     channel.deviation.iter_mut().for_each(|deviation| *deviation /= factor.abs());
 }
 
-/// Adds a relative deviation to what a channel reads.
+/// Adds a relative deviation (root mean square of the complex error) to what a channel reads; deviations are of one real part.
 fn widen(channel: &mut ChannelData, scatter: f64) {
     let pairs = channel.deviation.iter_mut().zip(&channel.measured);
-    pairs.for_each(|(deviation, value)| *deviation = deviation.hypot(scatter * value.norm()));
+    pairs.for_each(|(deviation, value)| *deviation = deviation.hypot(FRAC_1_SQRT_2 * scatter * value.norm()));
 }
 
 /// Exchanges what two channels read; their names and DOFs stay.

@@ -216,7 +216,7 @@ pub struct Data {
     /// cannot be told from them.
     pub per_unit_force: bool,
     /// Whether a channel is not relied on: then the model is not taken for exact either.
-    pub doubted: bool,
+    pub doubted: Vec<String>,
     /// Whether the runs are those that tell most of more.
     pub chosen: bool,
     /// Rows of the DOFs that are rotations.
@@ -251,7 +251,7 @@ impl Data {
             runs,
             excluded: Vec::new(),
             per_unit_force,
-            doubted: false,
+            doubted: Vec::new(),
             chosen: false,
             rotations,
             sessions: Vec::new(),

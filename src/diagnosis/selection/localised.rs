@@ -6,12 +6,11 @@
 //! it is the narrower hypothesis.
 
 use crate::diagnosis::candidates::start::UnfittedSet;
-use crate::diagnosis::channels::{ChannelFault, Fault, mended};
-use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::channels::{ChannelFault, mended};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::search::{RegressedSpots, View};
+use crate::diagnosis::selection::search::RegressedSpots;
 use crate::diagnosis::selection::short_list::Breadth;
 use crate::diagnosis::updating::parameters::Updating;
 
@@ -26,15 +25,10 @@ const CLOSE: f64 = 2.0;
 const FALLING: f64 = 0.9;
 /// How many times what free forces leave the best law may leave where the model is moved beside it.
 const BY_LAW: f64 = 2.0;
-/// Channels that may be doubted, among the places that leave least.
-const DOUBTED: usize = 4;
+/// Channels that are doubted, that which lets free forces leave least first.
+const DOUBTED: usize = 2;
 /// Share of what the best law leaves to which a doubt must bring it.
 const RELIEVED: f64 = 0.5;
-/// Share of its squared free errors which a gain or a delay may leave of a channel that is steady from run to run: then most of
-/// them is the same in all runs, which looseness is not.
-const STEADY: f64 = 0.25;
-/// Bounds of the scatter of a doubted channel.
-const SCATTER: [f64; 2] = [0.02, 0.3];
 
 /// A model whose places were looked at.
 struct Seen<'a> {
@@ -50,8 +44,6 @@ struct Seen<'a> {
     by_law: bool,
     /// Whether the best place is a response channel.
     at_channel: bool,
-    /// Response channels among the best places, with the scatter of what they read, relative.
-    suspects: Vec<(String, f64)>,
     /// Laws that were regressed, by spot.
     regressed: RegressedSpots,
 }
@@ -75,6 +67,9 @@ impl<'a> ReferenceModel<'a> {
     pub(crate) fn localised(
         &self,
     ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
+        if let Some(fault) = self.plainly_unreliable()? {
+            return Ok(Err(fault));
+        }
         let (stated, known) = self.predictor.stated();
         let mut here = self.moved_beside(Updating::all(stated, known, self.data))?;
         if here.least.min(here.free) > CLOSE * self.count() as f64
@@ -144,7 +139,7 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The updating parameters that fit best beside free forces at the place number `spot`, from `updating` on, with what these leave.
-    fn moved_beside_place(
+    pub(super) fn moved_beside_place(
         &self,
         mut updating: Updating,
         spot: usize,
@@ -183,28 +178,9 @@ impl<'a> ReferenceModel<'a> {
             _ => None,
         };
         let at_channel = placings.first().is_some_and(|p| matches!(view.screen.spots[p.spots[0]], Spot::Response(_)));
-        let near = placings.iter().take(DOUBTED).map(|p| p.spots[0]);
-        let suspects = near.filter_map(|spot| self.suspect(&view, spot, &unfitted)).collect();
         let regressed = view.regressed;
         let target = target.unwrap_or_else(|| self.linearisation.updating.standardised());
-        Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, suspects, regressed })
-    }
-
-    /// The response channel of `spot` with the scatter of its free errors; none where they are of one gain or delay, which is no
-    /// scatter from run to run.
-    fn suspect(&self, view: &View, spot: usize, unfitted: &[UnfittedSet]) -> Option<(String, f64)> {
-        let Spot::Response(name) = &view.screen.spots[spot] else { return None };
-        let place = view.screen.spots[spot].place();
-        let (forces, fields) = self.free(view, &[spot]);
-        let law = unfitted.iter().find(|d| d.effects[0].place.is_same(&place));
-        let steady = law.is_some_and(|law| {
-            let expected = self.at_place(view, spot, &forces[0], &fields).forces_of(&law.effects[0]);
-            let pairs =
-                || forces[0].iter().zip(expected.iter().flatten()).filter_map(|(f, e)| f.first().zip(e.first()));
-            let left: f64 = pairs().map(|(free, error)| (free.value - error).norm_sqr()).sum();
-            left < STEADY * pairs().map(|(free, _)| free.value.norm_sqr()).sum::<f64>()
-        });
-        (!steady).then(|| (name.clone(), scatter(&forces[0])))
+        Ok(Seen { target, reference: self, least, free, by_law, at_channel, unfitted, regressed })
     }
 
     /// Whether a law regressed beside the model as it is would bring `evidence`.
@@ -217,51 +193,27 @@ impl<'a> ReferenceModel<'a> {
     }
 
     /// The channel whose readings, taken to scatter from run to run, let a law leave far less than any does while all channels
-    /// are relied on; none where a law comes near, or where only two channels are.
+    /// are relied on; none where a law comes near.
     fn doubted(&self, here: &Seen) -> Result<Option<ChannelFault>, DiagnosisError> {
-        let [responses, _] = self.data.channel_names();
         let noise = CLOSE * self.count() as f64;
         let close = here.least < noise && here.by_law;
         let placed = here.free < noise && !here.at_channel;
-        if close || placed || responses.len() < 3 || self.control.is_late() {
+        if close || placed || self.control.is_late() {
             return Ok(None);
         }
-        let before = here.least + self.noise_determinant();
+        let (before, determinant) = (here.least, here.reference.noise_determinant());
         let mut best: Option<(f64, ChannelFault)> = None;
-        for (name, scatter) in &here.suspects {
-            let fault = unreliable(name, *scatter);
+        let (_, doubts) = self.doubts(&here.reference.linearisation.updating)?;
+        for doubt in doubts.iter().take(DOUBTED) {
+            let Some(fault) = self.scattering(doubt, &here.reference.linearisation.updating)? else { continue };
             let data = mended(self.data, std::slice::from_ref(&fault));
-            let reference = ReferenceModel { data: &data, early: &|_| {}, ..self.shallow() };
-            let seen = reference.moved_beside(here.reference.linearisation.updating.clone())?;
-            let after = seen.least + seen.reference.noise_determinant() - here.reference.noise_determinant()
-                + self.noise_determinant();
-            let relieved = after - before < -(1.0 - RELIEVED) * here.least;
+            let seen = self.with_data(&data).moved_beside(here.reference.linearisation.updating.clone())?;
+            let after = seen.least + seen.reference.noise_determinant() - determinant;
+            let relieved = after < RELIEVED * before;
             if relieved && best.as_ref().is_none_or(|(least, _)| after < *least) {
                 best = Some((after, fault));
             }
         }
         Ok(best.map(|(_, fault)| fault))
-    }
-
-    /// `ln det` of the noise of all runs.
-    fn noise_determinant(&self) -> f64 {
-        self.noise.runs.iter().map(crate::diagnosis::residual::whitening::Whitening::log_determinant).sum()
-    }
-}
-
-/// Root mean square of the free relative errors of a channel.
-fn scatter(errors: &[Vec<FreeForce>]) -> f64 {
-    let first: Vec<f64> = errors.iter().filter_map(|list| list.first()).map(|free| free.value.norm()).collect();
-    crate::math::statistics::root_mean_square(&first).clamp(SCATTER[0], SCATTER[1])
-}
-
-fn unreliable(name: &str, scatter: f64) -> ChannelFault {
-    ChannelFault {
-        fault: Fault::Unreliable(scatter),
-        channels: vec![name.to_owned()],
-        error_before: scatter,
-        error_after: scatter,
-        own_error: [scatter, scatter],
-        frequencies: [0, 0],
     }
 }

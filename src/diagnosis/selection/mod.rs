@@ -33,5 +33,6 @@ pub(crate) mod stepwise;
 mod structure_error;
 mod successive_linearisation;
 mod two_laws;
+mod unreliable_channel;
 pub(crate) mod updated;
 mod weighing;

@@ -4,6 +4,7 @@
 
 use super::beside_corrections::selected;
 use crate::diagnosis::candidates::friction::friction;
+use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, if_possible};
 use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
@@ -12,7 +13,7 @@ use crate::diagnosis::selection::estimator::Estimator;
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
-use crate::diagnosis::selection::search_result::cost;
+use crate::diagnosis::selection::search_result::{FittedSets, cost};
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::stepwise;
 use crate::diagnosis::updating::correction::{Correction, with_corrections};
@@ -50,9 +51,13 @@ pub(crate) fn explain<'a>(
     problem: &Problem,
     reference: &ReferenceModel<'a>,
     before: f64,
-) -> Result<Option<Outcome<'a>>, DiagnosisError> {
+) -> Result<Result<Option<Outcome<'a>>, ChannelFault>, DiagnosisError> {
     for (_, runs) in levels(problem, reference).into_iter().take(TRIED) {
-        let Some(Some(found)) = if_possible(on_runs(problem, reference, &runs))? else { continue };
+        let found = match if_possible(on_runs(problem, reference, &runs))? {
+            Some(Ok(Some(found))) => found,
+            Some(Err(fault)) => return Ok(Err(fault)),
+            Some(Ok(None)) | None => continue,
+        };
         let carried = |k: usize| if_possible(carried(reference, &found.sets[k], &found.corrections));
         let carried = reference.control.map(found.sets.len(), carried).into_iter().collect::<Result<Vec<_>, _>>()?;
         let fits: Vec<(ReferenceModel, FittedModel)> = carried.into_iter().flatten().collect();
@@ -61,9 +66,9 @@ pub(crate) fn explain<'a>(
         }
         let bare = reference.bare()?;
         let here = bare.with_scales(bare.linearisation.updating.scales);
-        return selected(reference, &bare, before, here, fits, None).map(Some);
+        return selected(reference, &bare, before, here, fits, None).map(|outcome| Ok(Some(outcome)));
     }
-    Ok(None)
+    Ok(Ok(None))
 }
 
 /// Whether the model as it is stated is so far off at one level, and so much nearer at another, that nothing is found from all.
@@ -93,22 +98,27 @@ fn levels(problem: &Problem, reference: &ReferenceModel) -> Vec<(f64, Vec<usize>
     levels
 }
 
-/// What explains `runs` alone; none where no effect does.
-fn on_runs(problem: &Problem, all: &ReferenceModel, runs: &[usize]) -> Result<Option<OfLevel>, DiagnosisError> {
+/// What explains `runs` alone; none where no effect does. Or a channel that is not to be relied on.
+fn on_runs(
+    problem: &Problem,
+    all: &ReferenceModel,
+    runs: &[usize],
+) -> Result<Result<Option<OfLevel>, ChannelFault>, DiagnosisError> {
     let own = runs.iter().map(|&r| all.data.runs[r].clone()).collect();
     let data = Data { runs: own, sessions: Vec::new(), ..all.data.clone() };
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);
     let reference = ReferenceModel::new(predictor, &data, all.control, &|_| {})?;
     let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
-    let Ok(outcome) = stepwise::explain(reference, before)? else { return Ok(None) };
-    let Some(top) = outcome.found.by_size.last() else { return Ok(None) };
-    if top.fits[0].chi_square > UNEXPLAINED * outcome.reference.count() as f64 {
-        return Ok(None);
-    }
+    let outcome = match stepwise::explain(reference, before)? {
+        Ok(outcome) => outcome,
+        Err(fault) => return Ok(Err(fault)),
+    };
+    let agrees = |top: &&FittedSets| top.fits[0].chi_square <= UNEXPLAINED * outcome.reference.count() as f64;
+    let Some(top) = outcome.found.by_size.last().filter(agrees) else { return Ok(Ok(None)) };
     let likely = top.fits.iter().zip(&top.probabilities).enumerate();
     let likely = likely.filter(|(k, (_, probability))| *k == 0 || **probability > LIKELY);
     let sets = likely.take(CARRIED).map(|(_, (fit, _))| fit.effects.clone()).collect();
-    Ok(Some(OfLevel { sets, corrections: corrections(&outcome.reference) }))
+    Ok(Ok(Some(OfLevel { sets, corrections: corrections(&outcome.reference) })))
 }
 
 /// The effects and `corrections` of one level settled on all runs, from where they leave least there: as they are, with friction that lets

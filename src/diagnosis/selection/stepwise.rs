@@ -56,7 +56,7 @@ pub(crate) fn explain(
     reference: ReferenceModel<'_>,
     before: f64,
 ) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
-    if reference.data.doubted {
+    if !reference.data.doubted.is_empty() {
         return beside_updating(reference, before);
     }
     let none = || SearchResult { updated: false, by_size: Vec::new(), agrees: false, before, without: 0.0 };
