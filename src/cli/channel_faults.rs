@@ -85,7 +85,12 @@ pub(super) fn text(faults: &[ChannelFault]) -> String {
     let mut text = "\nchannels first; all that follows is with them mended\n".to_owned();
     for fault in faults {
         let [before, after] = [fault.error_before, fault.error_after].map(|error| number(100.0 * error));
-        text.push_str(&format!("  {}: error {before} % before, {after} % after\n", fault.words()));
+        // A channel that scatters is not mended, only relied on less.
+        let fall = match fault.fault {
+            Fault::Unreliable(_) => String::new(),
+            _ => format!(": error {before} % before, {after} % after"),
+        };
+        text.push_str(&format!("  {}{fall}\n", fault.words()));
         text.push_str(&format!("    {}\n", fault.evidence()));
     }
     text

@@ -11,6 +11,7 @@ mod frequency_responses;
 mod hidden;
 mod hysteresis;
 mod level_series;
+mod loose_sensor;
 mod missing_force;
 mod points;
 mod quiet_sensors;

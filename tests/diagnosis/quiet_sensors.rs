@@ -5,13 +5,13 @@ use dashpot::cli::answer;
 use serde_json::Value;
 use std::path::Path;
 
-fn run(words: &[&str], paths: &[&Path]) -> String {
+pub(super) fn run(words: &[&str], paths: &[&Path]) -> String {
     let words = ["dashpot"].iter().chain(words).map(Into::into);
     answer(words.chain(paths.iter().map(|path| (*path).into()))).unwrap()
 }
 
 /// A chain of four masses with the damping of the whole structure.
-fn chain([masses, ground, coupling]: [&[f64]; 3], [alpha, beta]: [f64; 2]) -> String {
+pub(super) fn chain([masses, ground, coupling]: [&[f64]; 3], [alpha, beta]: [f64; 2]) -> String {
     format!(
         "[project]\nformat = 1\n[structure]\nkind = \"chain\"\nmasses = {masses:?}\nground_stiffness = {ground:?}\n\
          coupling_stiffness = {coupling:?}\n[[source]]\nlaw = \"mass_proportional\"\nstate = \"known\"\nalpha = {alpha:?}\n\

@@ -92,7 +92,7 @@ impl ChannelFault {
     pub fn evidence(&self) -> String {
         let percent = |x: f64| compact(100.0 * x, 3);
         if let Fault::Unreliable(_) = self.fault {
-            return "it is kept with that as its deviation; look at its mounting, its cable and its timing".to_owned();
+            return "kept with that as its deviation; look at its mounting, its cable and its timing".to_owned();
         }
         let [before, after] = self.own_error.map(percent);
         let [shown, of] = self.frequencies;

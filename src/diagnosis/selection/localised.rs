@@ -25,8 +25,6 @@ const CLOSE: f64 = 2.0;
 const FALLING: f64 = 0.9;
 /// How many times what free forces leave the best law may leave where the model is moved beside it.
 const BY_LAW: f64 = 2.0;
-/// Channels that are doubted, that which lets free forces leave least first.
-const DOUBTED: usize = 2;
 /// Share of what the best law leaves to which a doubt must bring it.
 const RELIEVED: f64 = 0.5;
 
@@ -203,9 +201,7 @@ impl<'a> ReferenceModel<'a> {
         }
         let (before, determinant) = (here.least, here.reference.noise_determinant());
         let mut best: Option<(f64, ChannelFault)> = None;
-        let (_, doubts) = self.doubts(&here.reference.linearisation.updating)?;
-        for doubt in doubts.iter().take(DOUBTED) {
-            let Some(fault) = self.scattering(doubt, &here.reference.linearisation.updating)? else { continue };
+        for fault in self.suspects(&here.reference.linearisation.updating)? {
             let data = mended(self.data, std::slice::from_ref(&fault));
             let seen = self.with_data(&data).moved_beside(here.reference.linearisation.updating.clone())?;
             let after = seen.least + seen.reference.noise_determinant() - determinant;

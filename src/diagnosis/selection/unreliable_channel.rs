@@ -9,7 +9,8 @@ use crate::diagnosis::residual::data::{Data, DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::parameters::Updating;
 
-/// Fewest channels: of two that do not fit each other either may be the loose one.
+/// Fewest channels that are relied on: of two that do not fit each other either may be the loose one. One more for each channel that is
+/// not relied on already, as what the others are out of tune by fits a doubt the sooner the fewer they are.
 const FEWEST: usize = 3;
 /// Scatters of what a channel reads, relative. With the greatest it is doubted first: then free forces explain the other channels alone.
 /// Where the least is the likeliest it is not the channel.
@@ -18,12 +19,14 @@ const SCATTERS: [f64; 6] = [0.32, 0.16, 0.08, 0.04, 0.02, 0.01];
 const NOISE: f64 = 2.0;
 /// How many times as much must be left where any other channel is doubted, or none.
 const PLAIN: f64 = 4.0;
+/// Most channels that are suspected.
+const SUSPECTS: usize = 2;
 /// Share of its squared errors which a constant gain and a delay may explain of a channel that scatters: where they explain more, most of
 /// them is the same in all runs, which looseness is not.
-const STEADY: f64 = 0.75;
+const STEADY: f64 = 0.9;
 
 /// A channel with its readings doubted.
-pub(super) struct Doubt {
+struct Doubt {
     channel: String,
     /// Scatter of what it reads, relative.
     scatter: f64,
@@ -48,13 +51,26 @@ impl ReferenceModel<'_> {
         self.scattering(best, &updating)
     }
 
+    /// The channels that may be unreliable beside the model with `updating`: that which lets free forces leave least when it is doubted, and
+    /// the next where that lets them leave about as little. None where one is doubted already.
+    pub(super) fn suspects(&self, updating: &Updating) -> Result<Vec<ChannelFault>, DiagnosisError> {
+        let (_, doubts) = if self.data.doubted.is_empty() { self.doubts(updating)? } else { (0.0, Vec::new()) };
+        let noise = self.count() as f64;
+        let least = doubts.first().map_or(0.0, |best| best.left.max(noise));
+        let near = doubts.iter().take(SUSPECTS).filter(|doubt| doubt.left < PLAIN * least);
+        let faults = near.map(|doubt| self.scattering(doubt, updating)).collect::<Result<Vec<_>, _>>()?;
+        Ok(faults.into_iter().flatten().collect())
+    }
+
     /// What free forces at one place leave of the model with `updating`, and the channels doubted one at a time, that which lets least be
     /// left first; none where free forces leave noise, or of too few channels.
-    pub(super) fn doubts(&self, updating: &Updating) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
+    fn doubts(&self, updating: &Updating) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
         let [responses, _] = self.data.channel_names();
         let Some(own) = if_possible(self.updated(updating, &[], &Vec::new()))? else { return Ok((0.0, Vec::new())) };
         let all = own.view(None)?.screen.singles().first().map_or(0.0, |placing| placing.chi_square);
-        if responses.len() < FEWEST || all < NOISE * self.count() as f64 || self.control.is_late() {
+        let doubted = self.data.doubted.len();
+        let few = responses.len() < FEWEST + 2 * doubted;
+        if few || all < NOISE * self.count() as f64 || self.control.is_late() {
             return Ok((all, Vec::new()));
         }
         let doubt = |c: usize| -> Result<Option<Doubt>, DiagnosisError> {
@@ -85,11 +101,7 @@ impl ReferenceModel<'_> {
 
     /// By how much the channel of `doubt` scatters: the likeliest of a few scatters, each beside free forces at the place that leaves least
     /// and the updating parameters that fit these, from `updating` on. None where a gain and a delay explain what it reads.
-    pub(super) fn scattering(
-        &self,
-        doubt: &Doubt,
-        updating: &Updating,
-    ) -> Result<Option<ChannelFault>, DiagnosisError> {
+    fn scattering(&self, doubt: &Doubt, updating: &Updating) -> Result<Option<ChannelFault>, DiagnosisError> {
         let moved = |k: usize| -> Result<Option<(Doubt, Updating)>, DiagnosisError> {
             let Some(there) = self.doubt(&doubt.channel, SCATTERS[k], updating)? else { return Ok(None) };
             let data = mended(self.data, &[there.fault()]);

@@ -18,7 +18,8 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
     ui.title("Channels first", "what follows is with them mended");
     for (k, fault) in diagnosis.channel_faults.iter().enumerate() {
         ui.horizontal(|ui| {
-            let words = format!("{}.", fault.words());
+            let words = fault.words();
+            let words = if words.ends_with('?') { words } else { words + "." };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if is_mendable(fault) {
                     let tip = "Writes it into the mapping of the channel. Undo takes it back.";
@@ -32,7 +33,11 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, asks: &mut Vec<Ask>) {
             });
         });
         let [before, after] = [fault.error_before, fault.error_after].map(in_words);
-        ui.hint(format!("Error of all channels {before} before, {after} after: {}.", fault.evidence()));
+        if is_mendable(fault) {
+            ui.hint(format!("Error of all channels {before} before, {after} after: {}.", fault.evidence()));
+        } else {
+            ui.hint(fault.evidence());
+        }
     }
     ui.add_space(space::XS);
 }
