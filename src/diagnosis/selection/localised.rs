@@ -26,7 +26,7 @@ const FALLING: f64 = 0.9;
 /// How many times what free forces leave the best law may leave where the model is moved beside it.
 const BY_LAW: f64 = 2.0;
 /// Share of what the best law leaves to which a doubt must bring it.
-const RELIEVED: f64 = 0.5;
+const RELIEVED: f64 = 0.25;
 
 /// A model whose places were looked at.
 struct Seen<'a> {

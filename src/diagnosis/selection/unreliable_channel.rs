@@ -8,6 +8,8 @@ use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::parameters::Updating;
+use faer::c64;
+use std::f64::consts::PI;
 
 /// Fewest channels that are relied on: of two that do not fit each other either may be the loose one. One more for each channel that is
 /// not relied on already, as what the others are out of tune by fits a doubt the sooner the fewer they are.
@@ -19,6 +21,9 @@ const SCATTERS: [f64; 6] = [0.32, 0.16, 0.08, 0.04, 0.02, 0.01];
 const NOISE: f64 = 2.0;
 /// How many times as much must be left where any other channel is doubted, or none.
 const PLAIN: f64 = 4.0;
+/// Delays that are tried per radian of the highest frequency, and at most up to the longest.
+const PER_RADIAN: f64 = 20.0;
+const MOST_STEPS: f64 = 1e4;
 /// Most channels that are suspected.
 const SUSPECTS: usize = 2;
 /// Share of its squared errors which a constant gain and a delay may explain of a channel that scatters: where they explain more, most of
@@ -43,7 +48,9 @@ impl ReferenceModel<'_> {
         let updating = Updating::all(stated, known, self.data);
         let (all, doubts) = self.doubts(&updating)?;
         let noise = NOISE * self.count() as f64;
-        let Some(best) = doubts.first().filter(|best| best.left < noise) else { return Ok(None) };
+        // Two channels alone agree beside many a place.
+        let enough = doubts.len() > FEWEST;
+        let Some(best) = doubts.first().filter(|best| enough && best.left < noise) else { return Ok(None) };
         let next = doubts.get(1).map_or(all, |next| next.left.min(all));
         if next < PLAIN * best.left.max(self.count() as f64) {
             return Ok(None);
@@ -169,26 +176,30 @@ fn likeliest(left: &[f64]) -> Option<f64> {
     Some(SCATTERS[best] * 0.5_f64.powf(step))
 }
 
-/// Whether `1 - (1 + g) exp(-i w t)`, which is about `i w t - g`, explains most of the squares of the free relative errors
-/// `[run][harmonic]` of a channel at the circular frequencies of the runs (rad/s).
+/// Whether a gain `g` and a delay `t` explain most of the squares of the free relative errors `1 - g exp(-i w t)`, `[run][harmonic]`, of a
+/// channel at the circular frequencies `w` of the runs (rad/s). Delays are looked for up to half the longest period.
 fn are_steady(errors: &[Vec<FreeForce>], omegas: &[f64]) -> bool {
     let fundamentals = errors.iter().zip(omegas).filter_map(|(list, omega)| Some((list.first()?.value, *omega)));
-    let (mut all, mut count, mut gain, mut delay, mut square) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (error, omega) in fundamentals {
-        all += error.norm_sqr();
-        count += 1.0;
-        gain += error.re;
-        delay += error.im * omega;
-        square += omega * omega;
-    }
-    count > 0.0 && gain * gain / count + delay * delay / square >= STEADY * all
+    let fundamentals: Vec<(c64, f64)> = fundamentals.collect();
+    let count = fundamentals.len() as f64;
+    let all: f64 = fundamentals.iter().map(|(error, _)| error.norm_sqr()).sum();
+    let lowest = omegas.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = omegas.iter().copied().fold(0.0, f64::max);
+    let steps = (PER_RADIAN * PI * highest / lowest).ceil().min(MOST_STEPS);
+    let left = |delay: f64| {
+        let turned =
+            || fundamentals.iter().map(move |(error, omega)| (1.0 - error) * c64::from_polar(1.0, omega * delay));
+        let gain = turned().map(|ratio| ratio.re).sum::<f64>() / count;
+        turned().map(|ratio| (ratio - gain).norm_sqr()).sum::<f64>()
+    };
+    let delays = (0..=2 * steps as usize).map(|k| (k as f64 / steps - 1.0) * PI / lowest);
+    delays.map(left).fold(f64::INFINITY, f64::min) < (1.0 - STEADY) * all
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
-    use faer::c64;
 
     fn errors(values: &[c64]) -> Vec<Vec<FreeForce>> {
         values.iter().map(|&value| vec![FreeForce { value, weight: 1.0 }]).collect()
@@ -208,8 +219,10 @@ mod tests {
     #[test]
     fn a_gain_and_a_delay_are_steady_and_looseness_is_not() {
         let omegas = [100.0, 200.0, 400.0, 800.0];
-        let gain_and_delay = omegas.map(|w| c64::new(1.0, 0.0) - c64::from_polar(1.1, -2e-4 * w));
-        assert!(are_steady(&errors(&gain_and_delay), &omegas));
+        for (gain, delay) in [(1.1, 2e-4), (0.7, 3e-3), (1.05, -1e-3), (1.0, 5e-4)] {
+            let read = omegas.map(|w| c64::new(1.0, 0.0) - c64::from_polar(gain, -delay * w));
+            assert!(are_steady(&errors(&read), &omegas), "{gain} {delay} s");
+        }
         let loose = [0.08, -0.06, 0.05, -0.07].map(|g| c64::new(g, 0.0));
         assert!(!are_steady(&errors(&loose), &omegas));
     }
