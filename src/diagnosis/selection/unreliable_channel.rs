@@ -24,7 +24,9 @@ const PLAIN: f64 = 4.0;
 /// Delays that are tried per radian of the highest frequency, and at most up to the longest.
 const PER_RADIAN: f64 = 20.0;
 const MOST_STEPS: f64 = 1e4;
-/// Most channels that are suspected.
+/// Most channels that are doubted, of many.
+const MOST_DOUBTED: usize = 12;
+/// Most that are suspected of them.
 const SUSPECTS: usize = 2;
 /// Share of its squared errors which a constant gain and a delay may explain of a channel that scatters: where they explain more, most of
 /// them is the same in all runs, which looseness is not.
@@ -72,22 +74,24 @@ impl ReferenceModel<'_> {
     /// What free forces at one place leave of the model with `updating`, and the channels doubted one at a time, that which lets least be
     /// left first; none where free forces leave noise, or of too few channels.
     fn doubts(&self, updating: &Updating) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
-        let [responses, _] = self.data.channel_names();
         let Some(own) = if_possible(self.updated(updating, &[], &Vec::new()))? else { return Ok((0.0, Vec::new())) };
-        let all = own.view(None)?.screen.singles().first().map_or(0.0, |placing| placing.chi_square);
+        let screen = own.view(None)?.screen;
+        let placings = screen.singles();
+        let all = placings.first().map_or(0.0, |placing| placing.chi_square);
         let doubted = self.data.doubted.len();
-        let few = responses.len() < FEWEST + 2 * doubted;
+        let few = self.data.channel_names()[0].len() < FEWEST + 2 * doubted;
         if few || all < NOISE * self.count() as f64 || self.control.is_late() {
             return Ok((all, Vec::new()));
         }
-        let doubt = |c: usize| -> Result<Option<Doubt>, DiagnosisError> {
-            if self.data.doubted.contains(&responses[c]) {
-                Ok(None)
-            } else {
-                self.doubt(&responses[c], SCATTERS[0], updating)
-            }
+        // Those whose own errors explain most come first.
+        let response = |spot: &Spot| match spot {
+            Spot::Response(name) if !self.data.doubted.contains(name) => Some(name.clone()),
+            _ => None,
         };
-        let doubts = self.control.map(responses.len(), doubt).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let channels = placings.iter().filter_map(|placing| response(&screen.spots[placing.spots[0]]));
+        let channels: Vec<String> = channels.take(MOST_DOUBTED).collect();
+        let doubt = |c: usize| self.doubt(&channels[c], SCATTERS[0], updating);
+        let doubts = self.control.map(channels.len(), doubt).into_iter().collect::<Result<Vec<_>, _>>()?;
         let relative = |doubt: Doubt| Doubt { left: doubt.left - own.noise_determinant(), ..doubt };
         let mut doubts: Vec<Doubt> = doubts.into_iter().flatten().map(relative).collect();
         doubts.sort_by(|a, b| a.left.total_cmp(&b.left));
