@@ -215,7 +215,7 @@ pub struct Data {
     /// Whether there are lines of frequency responses among the runs: they have no amplitude, and laws that depend on it
     /// cannot be told from them.
     pub per_unit_force: bool,
-    /// Whether a channel is not relied on: then the model is not taken for exact either.
+    /// Names of the channels that are not relied on: where there are some, the model is not taken for exact either.
     pub doubted: Vec<String>,
     /// Whether the runs are those that tell most of more.
     pub chosen: bool,

@@ -141,6 +141,16 @@ impl<'a> ReferenceModel<'a> {
         }
     }
 
+    /// The same model of other `data`, without what was computed.
+    pub(super) fn with_data<'b>(&'b self, data: &'b Data) -> ReferenceModel<'b> {
+        ReferenceModel { data, early: &|_| {}, ..self.shallow() }
+    }
+
+    /// `ln det` of the noise of all runs.
+    pub(super) fn noise_determinant(&self) -> f64 {
+        self.noise.runs.iter().map(Whitening::log_determinant).sum()
+    }
+
     /// Information criterion of a fit, its squared residual scaled by what the best model leaves beyond the noise.
     pub(crate) fn evidence(&self, fit: &FittedModel, scale: f64) -> f64 {
         let turning = fit.effects.iter().filter(|e| turns_a_moving_node(self.predictor.structure(), &e.place)).count();

@@ -5,7 +5,7 @@
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
 use crate::diagnosis::localisation::cell::FreeForce;
 use crate::diagnosis::localisation::location::Spot;
-use crate::diagnosis::residual::data::{Data, DiagnosisError, if_possible};
+use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::parameters::Updating;
 use faer::c64;
@@ -143,16 +143,6 @@ impl ReferenceModel<'_> {
         let Some(errors) = screen.forces(&spots).pop() else { return Ok(false) };
         let omegas: Vec<f64> = self.data.runs.iter().map(|run| run.omega).collect();
         Ok(are_steady(&errors, &omegas))
-    }
-
-    /// The same model of other `data`, of which nothing is computed yet.
-    pub(super) fn with_data<'b>(&'b self, data: &'b Data) -> ReferenceModel<'b> {
-        ReferenceModel { data, early: &|_| {}, ..self.shallow() }
-    }
-
-    /// `ln det` of the noise of all runs.
-    pub(super) fn noise_determinant(&self) -> f64 {
-        self.noise.runs.iter().map(crate::diagnosis::residual::whitening::Whitening::log_determinant).sum()
     }
 }
 
