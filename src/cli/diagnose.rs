@@ -5,7 +5,7 @@ use super::corrected::{corrected, correction, is_telling, listed};
 use super::mended_first::mended_first;
 use super::run_flags::{self, flags};
 use super::table::{number, table, with_deviation};
-use super::{channel_faults, identified, run_differences, source_json};
+use super::{channel_faults, identified, run_differences, run_faults, source_json};
 use crate::control::Control;
 use crate::diagnosis::result::{CommonFactor, Diagnosis, Suggestion, TestKind};
 use crate::diagnosis::updating::correction::as_force_gain;
@@ -154,6 +154,7 @@ fn document(project: &Project, diagnosis: &Diagnosis) -> Value {
             .collect::<Vec<_>>(),
         "common_factors": diagnosis.common_factors.iter().map(common_factor).collect::<Vec<_>>(),
         "channel_faults": diagnosis.channel_faults.iter().map(channel_faults::document).collect::<Vec<_>>(),
+        "run_faults": diagnosis.run_faults.iter().map(|fault| run_faults::document(fault, &project.runs)).collect::<Vec<_>>(),
         "not_looked_for": project.runs.iter().any(|run| run.is_used() && run.per_unit_force)
             .then_some(channel_faults::NO_AMPLITUDE),
         "steps": diagnosis.steps.iter().map(step).collect::<Vec<_>>(),
@@ -205,6 +206,7 @@ fn text(project: &Project, diagnosis: &Diagnosis) -> String {
         lines.push_str(&format!("{}\n", findings::sentence(diagnosis)));
     }
     lines.push_str(&channel_faults::text(&diagnosis.channel_faults));
+    lines.push_str(&run_faults::text(&diagnosis.run_faults, &project.runs));
     lines.push_str(&suggestions_in_words(structure, diagnosis));
     if !diagnosis.corrections.is_empty() {
         let detuned = diagnosis.corrections.iter().any(is_telling);
@@ -310,6 +312,9 @@ fn tell_unwritten(adoption: &Adoption, project: &Project, diagnosis: &Diagnosis)
     }
     for (k, why) in &adoption.unmended {
         eprintln!("not written: {}: {why}", diagnosis.channel_faults[*k].words());
+    }
+    for (k, why) in &adoption.kept {
+        eprintln!("not left out: {}: {why}", diagnosis.run_faults[*k].words(&project.runs));
     }
 }
 

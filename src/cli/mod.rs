@@ -35,6 +35,7 @@ mod reduction;
 mod remarks;
 mod report;
 mod run_differences;
+mod run_faults;
 mod run_flags;
 mod screen;
 mod simulate;

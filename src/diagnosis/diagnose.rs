@@ -11,7 +11,9 @@ use crate::diagnosis::residual::run_selection::informative_runs;
 use crate::diagnosis::result::{Diagnosis, Early, Step, Verdict};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::search_result::agrees;
+use crate::diagnosis::selection::unreliable::Unreliable;
 use crate::diagnosis::selection::{one_level, stepwise};
+use crate::diagnosis::unreliable_runs::run_faults;
 use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use std::sync::Arc;
@@ -126,29 +128,29 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     let mut faults = channels::find(&predictor, data, &reference.predictions);
     let as_stated = reference.agreement();
     drop(reference);
-    let mendable = faults.len();
+    let (mendable, mut left_out) = (faults.len(), Vec::new());
     let mut diagnosis = loop {
-        let mended = channels::mended(data, &faults);
-        let reference = ReferenceModel::new(predictor.clone(), &mended, control, early)?;
+        let relied_on = channels::mended(data, &faults).without_runs(&left_out);
+        let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &relied_on)?);
+        let reference = ReferenceModel::new(predictor, &relied_on, control, early)?;
         match explained(problem, reference)? {
             Ok(diagnosis) => break diagnosis,
-            Err(fault) => faults.push(fault),
+            Err(Unreliable::Channel(fault)) => faults.push(fault),
+            Err(Unreliable::Run(number)) => left_out.push(number),
         }
     };
-    if faults.is_empty() {
-        return Ok(diagnosis);
-    }
     if mendable > 0 {
         diagnosis.follows(as_stated, faults);
     } else {
         diagnosis.error_before = as_stated.error;
         diagnosis.channel_faults = faults;
     }
+    diagnosis.run_faults = run_faults(problem, data, &diagnosis, &left_out, control)?;
     Ok(diagnosis)
 }
 
 /// Explains what the reference model leaves; or a channel that is not to be relied on.
-fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diagnosis, ChannelFault>, DiagnosisError> {
+fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diagnosis, Unreliable>, DiagnosisError> {
     let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
     let noise_floor = reference.noise_floor(&[], &reference.predictions);
     let diagnosis = Diagnosis::adequate(reference.agreement(), noise_floor);
@@ -156,7 +158,7 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
         return Ok(Ok(diagnosis));
     }
     let (control, stated) = (reference.control, reference.clone());
-    let from_one_level = || -> Result<Result<Option<Diagnosis>, ChannelFault>, DiagnosisError> {
+    let from_one_level = || -> Result<Result<Option<Diagnosis>, Unreliable>, DiagnosisError> {
         match one_level::explain(problem, &stated, before)? {
             Ok(outcome) => outcome.map(|outcome| outcome.conclude(diagnosis.clone())).transpose().map(Ok),
             Err(fault) => Ok(Err(fault)),
@@ -170,7 +172,12 @@ fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diag
         Err(fault) => return Ok(Err(fault)),
     };
     let mut told = match stepwise::explain(reference, before)? {
-        Ok(outcome) => outcome.conclude(diagnosis.clone())?,
+        Ok(outcome) => {
+            if let Some(run) = outcome.unreliable_run()? {
+                return Ok(Err(Unreliable::Run(run)));
+            }
+            outcome.conclude(diagnosis.clone())?
+        }
         Err(fault) => return Ok(Err(fault)),
     };
     // Harmonics that excite modes above the band, which the model misses by more than their width, point anywhere.

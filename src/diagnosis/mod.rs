@@ -25,7 +25,9 @@ pub(crate) mod points;
 pub mod records;
 pub mod residual;
 pub mod result;
+pub mod run_fault;
 pub(crate) mod selection;
+mod unreliable_runs;
 pub mod updating;
 
 pub use compare::{Comparison, compare};

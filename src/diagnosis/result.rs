@@ -1,6 +1,7 @@
 //! What a diagnosis says: suggestions with their probabilities, steps, verdict, corrections and the next test.
 
 use crate::diagnosis::channels::fault::ChannelFault;
+use crate::diagnosis::run_fault::RunFault;
 use crate::diagnosis::updating::correction::Correction;
 use crate::effects::Source;
 
@@ -143,6 +144,8 @@ pub struct Diagnosis {
     pub common_factors: Vec<CommonFactor>,
     /// Reversed, exchanged and misread channels; all the rest is of the data with these mended.
     pub channel_faults: Vec<ChannelFault>,
+    /// Runs that do not fit the others; all the rest is of the data without them.
+    pub run_faults: Vec<RunFault>,
     /// Whether the search came to its end before its time was up ([`crate::control::Control::hurry`]).
     pub complete: bool,
     /// Numbers of the runs of the project that were searched where there are more than a search needs: those that tell most
@@ -196,6 +199,7 @@ impl Diagnosis {
             corrections: Vec::new(),
             common_factors: Vec::new(),
             channel_faults: Vec::new(),
+            run_faults: Vec::new(),
             complete: true,
             runs: Vec::new(),
         }

@@ -1,4 +1,4 @@
-//! What of a diagnosis is taken over into a project: the corrections of its model, its suggestions, its faults of channels. Each step
+//! What of a diagnosis is taken over into a project: the corrections of its model, its suggestions, its faults of channels and runs. Each step
 //! is made on the document as the steps before leave it. The command line and the window adopt by the same steps.
 
 use super::command::{Command, SourceAt, SourceSpec};
@@ -10,6 +10,7 @@ use super::refusal::Refusal;
 use super::sensors::further;
 use crate::diagnosis::channels::{ChannelFault, Fault};
 use crate::diagnosis::result::Diagnosis;
+use crate::diagnosis::run_fault::RunFault;
 use crate::diagnosis::updating::correction::Correction;
 use crate::effects::{Place, Source, State};
 use crate::exchange::Project;
@@ -28,18 +29,21 @@ pub struct Adoption {
     pub impossible: Option<usize>,
     /// Faults of channels that are left as they are, by their place in the list, and why.
     pub unmended: Vec<(usize, Refusal)>,
+    /// Runs that do not fit the others and are kept, by their place in the list, and why.
+    pub kept: Vec<(usize, Refusal)>,
 }
 
 impl Adoption {
     /// Nothing taken over yet.
     pub fn new(document: &Document) -> Self {
         let document = document.clone();
-        Self { document, commands: Vec::new(), left: Vec::new(), impossible: None, unmended: Vec::new() }
+        let (commands, left, unmended, kept) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { document, commands, left, impossible: None, unmended, kept }
     }
 
     /// Whether all that was to be taken over is written.
     pub fn is_complete(&self) -> bool {
-        self.left.is_empty() && self.impossible.is_none() && self.unmended.is_empty()
+        self.left.is_empty() && self.impossible.is_none() && self.unmended.is_empty() && self.kept.is_empty()
     }
 
     fn make(&mut self, command: Command) -> Result<(), Refusal> {
@@ -48,7 +52,7 @@ impl Adoption {
         Ok(())
     }
 
-    /// The whole of a diagnosis: corrections, the first suggestion with its set, faults of channels. `known` are the sources that act
+    /// The whole of a diagnosis: corrections, the first suggestion with its set, faults of channels and runs. `known` are the sources that act
     /// in the model, `project` is what was diagnosed.
     ///
     /// # Errors
@@ -64,6 +68,11 @@ impl Adoption {
             }
             if let Err(refusal) = self.fault(fault, project) {
                 self.unmended.push((k, refusal));
+            }
+        }
+        for (k, fault) in diagnosis.run_faults.iter().enumerate() {
+            if let Err(refusal) = self.without_run(fault, project) {
+                self.kept.push((k, refusal));
             }
         }
         Ok(())
@@ -122,6 +131,15 @@ impl Adoption {
     /// [`Refusal`] of a fault that no mapping can mend.
     pub fn fault(&mut self, fault: &ChannelFault, project: &Project) -> Result<(), Refusal> {
         self.make(mending::command(fault, project)?)
+    }
+
+    /// A run that does not fit the others: it is not used.
+    ///
+    /// # Errors
+    /// [`Refusal`] of a run that the project does not list by itself.
+    pub fn without_run(&mut self, fault: &RunFault, project: &Project) -> Result<(), Refusal> {
+        let file = project.runs.get(fault.run).map(|run| run.file.clone()).unwrap_or_default();
+        self.make(Command::SetRunUse { file, enabled: false })
     }
 
     /// What was identified becomes known, as `identified::known` says; `found` are sources of the document at their coefficients.

@@ -11,7 +11,6 @@ mod frequency_responses;
 mod hidden;
 mod hysteresis;
 mod level_series;
-mod loose_sensor;
 mod missing_force;
 mod points;
 mod quiet_sensors;
@@ -32,3 +31,4 @@ mod stops;
 #[allow(dead_code, reason = "shared with the example, which uses all of it")]
 mod suite;
 mod two_laws;
+mod unreliable_data;

@@ -9,6 +9,8 @@
 //! is what no law at that place could explain: at the true place it falls to the noise whatever the law. Two places take
 //! a pair of forces. An error of a channel is a place like any other: its column is that channel alone.
 
+mod without_run;
+
 use super::cell::{Cell, Eliminated, dot};
 use crate::control::Control;
 use crate::diagnosis::localisation::cell::FreeForce;

@@ -219,6 +219,8 @@ pub struct Data {
     pub doubted: Vec<String>,
     /// Whether the runs are those that tell most of more.
     pub chosen: bool,
+    /// How many runs were left out because they do not fit the others.
+    pub left_out: usize,
     /// Rows of the DOFs that are rotations.
     pub rotations: Vec<usize>,
     /// Number of the session of each run; none where they cannot be told apart.
@@ -253,6 +255,7 @@ impl Data {
             per_unit_force,
             doubted: Vec::new(),
             chosen: false,
+            left_out: 0,
             rotations,
             sessions: Vec::new(),
         }

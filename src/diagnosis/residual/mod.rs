@@ -5,6 +5,7 @@ pub mod breakdown;
 pub mod comparison;
 pub mod data;
 pub(crate) mod energy_balance;
+mod left_out_runs;
 pub(crate) mod levels;
 pub mod prediction;
 pub(crate) mod run_nuisance;

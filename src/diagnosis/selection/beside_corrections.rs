@@ -1,6 +1,5 @@
 //! The search with updating parameters free beside effects: corrections alone, one change in place of many corrections, laws.
 
-use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::backward_elimination::{pruned, without_addition, without_needless_effects};
 use crate::diagnosis::selection::competing_model::{CHOSEN, CompetingModel, FURTHER, RAISED};
@@ -8,6 +7,7 @@ use crate::diagnosis::selection::conclusion::{self, Outcome, TOLERATED};
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::search_result::{DOUBTFUL, MOST_EFFECTS, SearchResult, agrees, explains_by_scatter};
+use crate::diagnosis::selection::unreliable::Unreliable;
 use crate::diagnosis::selection::weighing::weighed;
 use crate::diagnosis::updating::detuning::is_likely;
 
@@ -19,7 +19,7 @@ const CHANGE: f64 = 4.0;
 pub(super) fn beside_updating(
     reference: ReferenceModel<'_>,
     before: f64,
-) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+) -> Result<Result<Outcome<'_>, Unreliable>, DiagnosisError> {
     let bare = reference.bare()?;
     match first_candidates(&reference, before, &bare)? {
         First::Fits(here, fits, corrected) => selected(&reference, &bare, before, here, fits, corrected).map(Ok),
@@ -106,7 +106,7 @@ enum First<'a> {
     /// Nothing: corrections alone, as likely as they make the model.
     None(ReferenceModel<'a>),
     /// A channel that is not to be relied on.
-    Unreliable(ChannelFault),
+    Unreliable(Unreliable),
 }
 
 /// The first candidates beside the corrections of `bare`. Where corrections alone agree with the data and no law would bring its

@@ -12,6 +12,7 @@ use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::search::RegressedSpots;
 use crate::diagnosis::selection::short_list::Breadth;
+use crate::diagnosis::selection::unreliable::Unreliable;
 use crate::diagnosis::updating::parameters::Updating;
 
 /// Steps of the model.
@@ -64,9 +65,12 @@ impl<'a> ReferenceModel<'a> {
     /// regressed there, best first; or the channel that does not fit the others, whatever the law.
     pub(crate) fn localised(
         &self,
-    ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), ChannelFault>, DiagnosisError> {
+    ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), Unreliable>, DiagnosisError> {
+        if let Some(run) = self.unreliable_run()? {
+            return Ok(Err(Unreliable::Run(run)));
+        }
         if let Some(fault) = self.plainly_unreliable()? {
-            return Ok(Err(fault));
+            return Ok(Err(Unreliable::Channel(fault)));
         }
         let (stated, known) = self.predictor.stated();
         let mut here = self.moved_beside(Updating::all(stated, known, self.data))?;
@@ -77,7 +81,7 @@ impl<'a> ReferenceModel<'a> {
             here = if there.least < here.least { there } else { here };
         }
         if let Some(fault) = self.doubted(&here)? {
-            return Ok(Err(fault));
+            return Ok(Err(Unreliable::Channel(fault)));
         }
         Ok(Ok((here.reference, here.unfitted)))
     }

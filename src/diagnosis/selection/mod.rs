@@ -33,6 +33,8 @@ pub(crate) mod stepwise;
 mod structure_error;
 mod successive_linearisation;
 mod two_laws;
+pub(crate) mod unreliable;
 mod unreliable_channel;
+mod unreliable_run;
 pub(crate) mod updated;
 mod weighing;

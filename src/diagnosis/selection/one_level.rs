@@ -4,7 +4,6 @@
 
 use super::beside_corrections::selected;
 use crate::diagnosis::candidates::friction::friction;
-use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::{Data, DiagnosisError, Problem, if_possible};
 use crate::diagnosis::residual::levels::Levels;
 use crate::diagnosis::residual::prediction::{Predictor, SEARCH};
@@ -16,6 +15,7 @@ use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::selection::search_result::{FittedSets, cost};
 use crate::diagnosis::selection::solver_settings::has_friction;
 use crate::diagnosis::selection::stepwise;
+use crate::diagnosis::selection::unreliable::Unreliable;
 use crate::diagnosis::updating::correction::{Correction, with_corrections};
 use crate::diagnosis::updating::parameters::Updating;
 use crate::effects::Source;
@@ -51,7 +51,7 @@ pub(crate) fn explain<'a>(
     problem: &Problem,
     reference: &ReferenceModel<'a>,
     before: f64,
-) -> Result<Result<Option<Outcome<'a>>, ChannelFault>, DiagnosisError> {
+) -> Result<Result<Option<Outcome<'a>>, Unreliable>, DiagnosisError> {
     for (_, runs) in levels(problem, reference).into_iter().take(TRIED) {
         let found = match if_possible(on_runs(problem, reference, &runs))? {
             Some(Ok(Some(found))) => found,
@@ -103,7 +103,7 @@ fn on_runs(
     problem: &Problem,
     all: &ReferenceModel,
     runs: &[usize],
-) -> Result<Result<Option<OfLevel>, ChannelFault>, DiagnosisError> {
+) -> Result<Result<Option<OfLevel>, Unreliable>, DiagnosisError> {
     let own = runs.iter().map(|&r| all.data.runs[r].clone()).collect();
     let data = Data { runs: own, sessions: Vec::new(), ..all.data.clone() };
     let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &data)?);

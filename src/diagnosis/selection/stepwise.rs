@@ -6,12 +6,12 @@ use super::search_result::{
     AGREES, DOUBTFUL, EVIDENCE, FittedSets, LAST, MOST_EFFECTS, SearchResult, distinct, fits_well, same_set, small,
 };
 use crate::diagnosis::candidates::special_cases::is_limit;
-use crate::diagnosis::channels::ChannelFault;
 use crate::diagnosis::residual::data::DiagnosisError;
 use crate::diagnosis::selection::conclusion::{self, Outcome};
 use crate::diagnosis::selection::fits::STEPS;
 use crate::diagnosis::selection::fitted_model::FittedModel;
 use crate::diagnosis::selection::reference_model::{ReferenceModel, scale_of};
+use crate::diagnosis::selection::unreliable::Unreliable;
 
 /// Deviations within which it agrees so well that no further effect is looked for.
 const SETTLED: f64 = 1.5;
@@ -55,7 +55,7 @@ fn confirm(reference: &ReferenceModel, found: &mut SearchResult) -> Result<(), D
 pub(crate) fn explain(
     reference: ReferenceModel<'_>,
     before: f64,
-) -> Result<Result<Outcome<'_>, ChannelFault>, DiagnosisError> {
+) -> Result<Result<Outcome<'_>, Unreliable>, DiagnosisError> {
     if !reference.data.doubted.is_empty() {
         return beside_updating(reference, before);
     }

@@ -80,7 +80,7 @@ impl ReferenceModel<'_> {
     }
 
     /// The updated model with all runs alike.
-    pub(super) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
+    pub(crate) fn of_structure(&self) -> Result<Predictor, DiagnosisError> {
         self.predictor.updated(&self.linearisation.updating.of_structure())
     }
 }

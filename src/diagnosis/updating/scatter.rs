@@ -73,7 +73,7 @@ pub struct RunScatter {
 pub struct Scatter {
     /// Channels in the order of the runs; none where one response channel alone is measured.
     pub channels: Vec<ChannelScatter>,
-    /// Used runs.
+    /// Used runs that fit the others.
     pub runs: Vec<RunScatter>,
 }
 
@@ -89,7 +89,8 @@ pub fn of_diagnosis(
 ) -> Result<Option<Scatter>, DiagnosisError> {
     let last = diagnosis.steps.last();
     let effects: Vec<Source> = last.map_or_else(Vec::new, |s| s.added.iter().map(|a| a.source.clone()).collect());
-    scatter(problem, &effects, &diagnosis.corrections, control)
+    let left_out: Vec<usize> = diagnosis.run_faults.iter().map(|fault| fault.run).collect();
+    without_runs(problem, &left_out, &effects, &diagnosis.corrections, control)
 }
 
 /// The same beside `effects` and `corrections`.
@@ -102,10 +103,21 @@ pub fn scatter(
     corrections: &[Correction],
     control: &Control,
 ) -> Result<Option<Scatter>, DiagnosisError> {
+    without_runs(problem, &[], effects, corrections, control)
+}
+
+/// The same of all runs but those of the numbers `left_out`.
+fn without_runs(
+    problem: &Problem,
+    left_out: &[usize],
+    effects: &[Source],
+    corrections: &[Correction],
+    control: &Control,
+) -> Result<Option<Scatter>, DiagnosisError> {
     if problem.structure.matrices().is_none() {
         return Ok(None);
     }
-    let data = Data::new(problem)?;
+    let data = Data::new(problem)?.without_runs(left_out);
     let known = problem.known();
     let updating = with_corrections(Updating::all(problem.structure, &known, &data), corrections);
     let predictor = Arc::new(Predictor::new(problem.structure, known, &data)?);

@@ -4,7 +4,7 @@ use super::look::Look;
 use super::ranking::{open, ranked};
 use super::request::Request;
 use super::scene::Scene;
-use super::{card, channels, force, limit};
+use super::{card, channels, force, limit, runs};
 use crate::diagnosis::Diagnosis;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::updating::parameters::UpdatingParameter;
@@ -128,6 +128,7 @@ fn answer(ui: &mut Ui, scene: &Scene<'_>, diagnosis: &Diagnosis, look: &mut Look
         ui.weak(runs);
     }
     channels::show(ui, diagnosis, asks);
+    runs::show(ui, diagnosis, &scene.document.project.runs, asks);
     if matches!(diagnosis.verdict, Verdict::Adequate | Verdict::Detuned) {
         adequate(ui, scene, diagnosis);
     } else {

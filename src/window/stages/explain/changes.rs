@@ -4,6 +4,7 @@ use super::cards;
 use super::request::Request;
 use super::scene::Scene;
 use crate::diagnosis::channels::ChannelFault;
+use crate::diagnosis::run_fault::RunFault;
 use crate::diagnosis::updating::correction::Correction;
 use crate::effects::{Effect, Place, Source};
 use crate::exchange::project::ruled_out::RuledOutTable;
@@ -70,6 +71,15 @@ pub(crate) fn change(request: &Request, document: &Document, derived: &Derived) 
                 Change::adopting(scene, &done, |a| a.fault(fault, &document.project))
             };
             found.and_then(|found| found.channel_faults.get(*k)).map(mended).transpose()
+        }
+        Request::LeaveOut(k) => {
+            let left_out = |fault: &RunFault| {
+                let runs = &document.project.runs;
+                let name = runs.get(fault.run).map_or("", |run| run.file.as_str());
+                let done = format!("Left out: {name}.");
+                Change::adopting(scene, &done, |a| a.without_run(fault, &document.project))
+            };
+            found.and_then(|found| found.run_faults.get(*k)).map(left_out).transpose()
         }
         Request::Try(_)
         | Request::Stop

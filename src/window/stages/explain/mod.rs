@@ -17,6 +17,7 @@ pub(crate) mod panes;
 mod ranking;
 mod record;
 pub(crate) mod request;
+mod runs;
 mod scene;
 mod schematic;
 pub(crate) mod switches;
@@ -119,7 +120,8 @@ pub fn look_on(request: Request, view: &mut View, explained: &mut Explained) {
         | Request::Correct
         | Request::CorrectOne(_)
         | Request::CorrectSensor { .. }
-        | Request::Mend(_) => {}
+        | Request::Mend(_)
+        | Request::LeaveOut(_) => {}
     }
 }
 

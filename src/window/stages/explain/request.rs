@@ -34,6 +34,8 @@ pub enum Request {
     },
     /// Mend a channel that was found to read wrongly, by its place in the list, in its mapping.
     Mend(usize),
+    /// Leave out a run that does not fit the others, by its place in the list.
+    LeaveOut(usize),
     /// Start it again.
     Retry,
     /// End the search with the best so far.
