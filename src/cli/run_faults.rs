@@ -31,6 +31,6 @@ pub(super) fn text(faults: &[RunFault], runs: &[Run]) -> String {
     let which = if faults.len() > 1 { "them" } else { "it" };
     let lines: String = faults.iter().map(|fault| format!("  {}\n", fault.words(runs))).collect();
     format!(
-        "\nruns first; all that follows is without {which}\n{lines}    what is found leaves {before} % with {which}, {after} % without\n"
+        "\nruns first; all that follows is without {which}\n{lines}    what is found leaves {before} % with all runs, {after} % without\n"
     )
 }

@@ -79,7 +79,8 @@ impl Screen {
         linearisation: &Linearisation,
         control: &Control,
     ) -> Result<Self, DiagnosisError> {
-        let spots = Spot::all(predictor.structure(), data);
+        // Of the model as it is stated: which DOFs of matrices without lines are neighbours may change with it.
+        let spots = Spot::all(predictor.stated().0, data);
         for run in &data.runs {
             for channel in run.responses.iter().chain(&run.forces) {
                 receptances.need(channel.dof, control)?;

@@ -17,11 +17,10 @@ impl Data {
         Self { runs, sessions, left_out, ..self.clone() }
     }
 
-    /// Whether one run more may be left out: of a few one, of many one in eight.
-    pub(crate) fn may_leave_out_a_run(&self) -> bool {
-        let all = self.runs.len() + self.left_out;
-        let few = self.left_out == 0 || ONE_IN * (self.left_out + 1) <= all;
-        !self.per_unit_force && self.runs.len() > FEWEST && few
+    /// Whether so many `more` runs may be left out: of a few one, of many one in eight.
+    pub(crate) fn may_leave_out(&self, more: usize) -> bool {
+        let (all, left_out) = (self.runs.len() + self.left_out, self.left_out + more);
+        !self.per_unit_force && self.runs.len() >= FEWEST + more && (left_out == 1 || ONE_IN * left_out <= all)
     }
 }
 
@@ -44,8 +43,8 @@ mod tests {
         let all = Data { runs: (10..26).map(run).collect(), sessions: (0..16).collect(), ..Data::default() };
         let less = all.without_runs(&[11, 13]);
         assert_eq!((less.runs[1].index, less.sessions[1], less.runs.len(), less.left_out), (12, 2, 14, 2));
-        let may = [&all, &all.without_runs(&[11]), &less].map(Data::may_leave_out_a_run);
-        assert_eq!(may, [true, true, false]);
-        assert!(!Data { runs: (0..6).map(run).collect(), ..Data::default() }.may_leave_out_a_run());
+        let may = [&all, &all.without_runs(&[11]), &less].map(|data| data.may_leave_out(1));
+        assert_eq!((may, all.may_leave_out(2), all.may_leave_out(3)), ([true, true, false], true, false));
+        assert!(!Data { runs: (0..6).map(run).collect(), ..Data::default() }.may_leave_out(1));
     }
 }

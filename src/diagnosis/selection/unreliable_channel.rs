@@ -72,7 +72,7 @@ impl ReferenceModel<'_> {
     }
 
     /// What free forces at one place leave of the model with `updating`, and the channels doubted one at a time, that which lets least be
-    /// left first; none where free forces leave noise, or of too few channels.
+    /// left first; none where free forces at a place that is no channel leave noise, or of too few channels.
     fn doubts(&self, updating: &Updating) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
         let Some(own) = if_possible(self.updated(updating, &[], &Vec::new()))? else { return Ok((0.0, Vec::new())) };
         let screen = own.view(None)?.screen;
@@ -80,15 +80,19 @@ impl ReferenceModel<'_> {
         let all = placings.first().map_or(0.0, |placing| placing.chi_square);
         let doubted = self.data.doubted.len();
         let few = self.data.channel_names()[0].len() < FEWEST + 2 * doubted;
-        if few || all < NOISE * self.count() as f64 || self.control.is_late() {
+        let noise = NOISE * self.count() as f64;
+        let at_channel = placings.first().is_some_and(|best| matches!(screen.spots[best.spots[0]], Spot::Response(_)));
+        if few || (all < noise && !at_channel) || self.control.is_late() {
             return Ok((all, Vec::new()));
         }
-        // Those whose own errors explain most come first.
+        // Those whose own errors explain most come first; where these alone leave noise, it may be one that does.
+        let most = if all < noise { noise } else { f64::INFINITY };
         let response = |spot: &Spot| match spot {
             Spot::Response(name) if !self.data.doubted.contains(name) => Some(name.clone()),
             _ => None,
         };
-        let channels = placings.iter().filter_map(|placing| response(&screen.spots[placing.spots[0]]));
+        let likely = placings.iter().take_while(|placing| placing.chi_square <= most);
+        let channels = likely.filter_map(|placing| response(&screen.spots[placing.spots[0]]));
         let channels: Vec<String> = channels.take(MOST_DOUBTED).collect();
         let doubt = |c: usize| self.doubt(&channels[c], SCATTERS[0], updating);
         let doubts = self.control.map(channels.len(), doubt).into_iter().collect::<Result<Vec<_>, _>>()?;

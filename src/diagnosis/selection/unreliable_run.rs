@@ -3,6 +3,7 @@
 //! found leave far less than without any other run, and the same is left where it is kept and its force, its motions or one of them
 //! are misread by a factor.
 
+use crate::control::Control;
 use crate::diagnosis::localisation::free_force::{Placing, Screen};
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
@@ -36,14 +37,33 @@ struct Suspect {
 
 impl Suspect {
     /// The suspect of those that `screen` sees, by what `best` leaves.
-    fn of(reference: &ReferenceModel, screen: &Screen, best: fn(&Screen) -> Placing) -> Option<Self> {
+    fn of(screen: &Screen, best: fn(&Screen) -> Placing, control: &Control) -> Option<Self> {
         let left = |screen: &Screen| best(screen).chi_square / screen.count().max(1) as f64;
         let without = |run: usize| (run, left(&screen.without_run(run)));
-        let mut runs = reference.control.map(reference.data.runs.len(), without);
+        let mut runs = control.map(screen.runs(), without);
         runs.sort_by(|a, b| a.1.total_cmp(&b.1));
         let [(run, least), (_, next), ..] = runs[..] else { return None };
-        let suspect = Self { run, left: least, otherwise: next.min(left(screen)) };
-        (suspect.otherwise > MORE * least).then_some(suspect)
+        Some(Self { run, left: least, otherwise: next.min(left(screen)) })
+    }
+
+    /// The place among the runs of that which is left out for `reason`: the suspect, or the one beside it where two do not fit.
+    fn left_out(
+        screen: &Screen,
+        best: fn(&Screen) -> Placing,
+        reason: fn(&Self, &Screen) -> bool,
+        reference: &ReferenceModel,
+    ) -> Option<usize> {
+        let told = |suspect: &Self, screen: &Screen| suspect.otherwise > MORE * suspect.left && reason(suspect, screen);
+        let first = Self::of(screen, best, reference.control)?;
+        if told(&first, screen) {
+            return Some(first.run);
+        }
+        if !reference.data.may_leave_out(2) {
+            return None;
+        }
+        let rest = screen.without_run(first.run);
+        let second = Self::of(&rest, best, reference.control).filter(|second| told(second, &rest))?;
+        Some(second.run + usize::from(second.run >= first.run))
     }
 
     /// Whether without it noise is left, and far more otherwise.
@@ -75,22 +95,21 @@ impl ReferenceModel<'_> {
     pub(super) fn unreliable_run(&self) -> Result<Option<usize>, DiagnosisError> {
         let (stated, known) = self.predictor.stated();
         let updating = Updating::all(stated, known, self.data);
-        if !self.data.may_leave_out_a_run() || self.control.is_late() {
+        if !self.data.may_leave_out(1) || self.control.is_late() {
             return Ok(None);
         }
         let Some(own) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { return Ok(None) };
         let screen = own.view(None)?.screen;
-        let suspect = |best: fn(&Screen) -> Placing| {
+        let by_place =
+            |suspect: &Suspect, screen: &Screen| suspect.is_plain() || suspect.is_misread(screen, Screen::best_place);
+        let alone =
+            |suspect: &Suspect, screen: &Screen| suspect.left < NOISE && suspect.is_misread(screen, Screen::no_place);
+        let left_out = |best: fn(&Screen) -> Placing, reason: fn(&Suspect, &Screen) -> bool| {
             let enough = best(&screen).chi_square > screen.count() as f64;
-            enough.then(|| Suspect::of(self, &screen, best)).flatten()
+            enough.then(|| Suspect::left_out(&screen, best, reason, self)).flatten()
         };
-        let by_place = suspect(Screen::best_place)
-            .filter(|suspect| suspect.is_plain() || suspect.is_misread(&screen, Screen::best_place));
-        let alone = || {
-            let is_noise = |suspect: &Suspect| suspect.left < NOISE && suspect.is_misread(&screen, Screen::no_place);
-            suspect(Screen::no_place).filter(is_noise)
-        };
-        Ok(by_place.or_else(alone).map(|suspect| self.data.runs[suspect.run].index))
+        let run = left_out(Screen::best_place, by_place).or_else(|| left_out(Screen::no_place, alone));
+        Ok(run.map(|r| self.data.runs[r].index))
     }
 }
 
@@ -98,7 +117,7 @@ impl Outcome<'_> {
     /// The run, by its number in the project, that does not fit the others beside what was found.
     pub(crate) fn unreliable_run(&self) -> Result<Option<usize>, DiagnosisError> {
         let reference = &self.reference;
-        if !reference.data.may_leave_out_a_run() || reference.control.is_late() {
+        if !reference.data.may_leave_out(1) || reference.control.is_late() {
             return Ok(None);
         }
         let best = self.found.by_size.last().map(|sets| &sets.fits[0]);
@@ -112,8 +131,9 @@ impl Outcome<'_> {
         if screen.nothing() < NOISE * screen.count() as f64 {
             return Ok(None);
         }
-        let is_misread = |suspect: &Suspect| suspect.left < FOUND && suspect.is_misread(&screen, Screen::no_place);
-        let suspect = Suspect::of(&beside, &screen, Screen::no_place).filter(is_misread);
-        Ok(suspect.map(|suspect| reference.data.runs[suspect.run].index))
+        let reason =
+            |suspect: &Suspect, screen: &Screen| suspect.left < FOUND && suspect.is_misread(screen, Screen::no_place);
+        let run = Suspect::left_out(&screen, Screen::no_place, reason, &beside);
+        Ok(run.map(|r| reference.data.runs[r].index))
     }
 }

@@ -11,7 +11,11 @@ use crate::diagnosis::Problem;
 use crate::diagnosis::residual::data::Data;
 use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::selection::reference_model::ReferenceModel;
+use crate::diagnosis::updating::correction::{Correction, with_corrections};
+use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
 use crate::effects::{Effect, Leg};
+use crate::structure::Part;
+use crate::structure::imported::ImportedParameters;
 use faer::c64;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -280,4 +284,28 @@ fn the_free_force_of_a_hidden_dashpot_is_its_own() {
         let expected = c64::new(0.0, w * c) * (x[1] - x[2]);
         assert!((force[0].value - expected).norm() < 1e-6 * expected.norm(), "{} for {expected}", force[0].value);
     }
+}
+
+/// Which DOFs of matrices without lines are neighbours follows from the stiffness: the places are those of the model as it is stated, however
+/// it is updated, for they are numbered.
+#[test]
+fn the_places_of_an_updated_model_are_those_of_the_stated_one() {
+    let matrices = three_masses([1.0; 3]).matrices().expect("a chain has matrices").clone();
+    let (mass, stiffness, nodes, dofs, lines) = (matrices.mass, matrices.stiffness, None, None, Vec::new());
+    let structure = ImportedParameters { mass, stiffness, nodes, dofs, lines }.build(&[]).expect("matrices");
+    let zero = c64::new(0.0, 0.0);
+    let runs =
+        [46.0, 110.0].map(|w| displacements_run(w, (2, 2.0), &[c64::new(1.0, 0.1), zero, c64::new(0.5, 0.2)], 1e-4));
+    let problem = Problem { structure: &structure, sources: &[], runs: &runs };
+    let data = Data::new(&problem).expect("runs");
+    let predictor = Arc::new(Predictor::new(&structure, Vec::new(), &data).expect("a model"));
+    let control = Control::unattended();
+    let stated = ReferenceModel::new(predictor, &data, &control, &|_| {}).expect("predictions");
+    let parameter = UpdatingParameter::Structure(Part::Coupling([0, 1]));
+    let corrections = [Correction { parameter, factor: 1e-9, deviation: 0.0 }];
+    let updating = with_corrections(Updating::all(&structure, &[], &data), &corrections);
+    let updated = stated.updated(&updating, &[], &Vec::new()).expect("an updated model");
+    assert_ne!(updated.predictor.structure().neighbours(), structure.neighbours());
+    let spots = |model: &ReferenceModel| model.view(None).expect("receptances").screen.spots;
+    assert_eq!(spots(&updated), spots(&stated));
 }

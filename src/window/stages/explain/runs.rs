@@ -28,6 +28,6 @@ pub(super) fn show(ui: &mut Ui, diagnosis: &Diagnosis, runs: &[Run], asks: &mut 
         });
     }
     let [before, after] = [first.error_before, first.error_after].map(in_words);
-    ui.hint(format!("What is found leaves {before} with these runs, {after} without."));
+    ui.hint(format!("What is found leaves {before} with all runs, {after} without."));
     ui.add_space(space::XS);
 }
