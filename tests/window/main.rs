@@ -24,6 +24,7 @@ mod keyboard;
 mod laboratory;
 mod language;
 mod laws;
+mod leave_out;
 mod legible;
 mod many;
 mod mend;

@@ -10,7 +10,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 /// A beam with a dashpot at its end; the stiffness in Pa.
-fn beam(youngs_modulus: f64) -> String {
+pub(super) fn beam(youngs_modulus: f64) -> String {
     format!(
         "[project]\nformat = 1\ntitle = \"Cables mixed up\"\n[structure]\nkind = \"beam\"\nlength = 0.56\nbreadth = 0.04\n\
          depth = 0.004\nyoungs_modulus = {youngs_modulus:?}\ndensity = 2700.0\nelements = 10\nsupports = \"clamped-free\"\n\

@@ -14,9 +14,9 @@ use crate::diagnosis::selection::reference_model::ReferenceModel;
 use crate::diagnosis::updating::correction::{Correction, with_corrections};
 use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
 use crate::effects::{Effect, Leg};
-use crate::structure::Part;
-use crate::structure::imported::ImportedParameters;
-use faer::c64;
+use crate::structure::imported::{ImportedDof, ImportedParameters};
+use crate::structure::{Direction, Part};
+use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -290,19 +290,33 @@ fn the_free_force_of_a_hidden_dashpot_is_its_own() {
 /// it is updated, for they are numbered.
 #[test]
 fn the_places_of_an_updated_model_are_those_of_the_stated_one() {
-    let matrices = three_masses([1.0; 3]).matrices().expect("a chain has matrices").clone();
-    let (mass, stiffness, nodes, dofs, lines) = (matrices.mass, matrices.stiffness, None, None, Vec::new());
-    let structure = ImportedParameters { mass, stiffness, nodes, dofs, lines }.build(&[]).expect("matrices");
+    // A rotation beside the chain: where there is one no springs are known, and modes are wrong.
+    let chain = three_masses([1.0; 3]).matrices().expect("a chain has matrices").clone();
+    let beside = |part: &Mat<f64>, own: f64| {
+        Mat::from_fn(4, 4, |i, j| if i.max(j) < 3 { part[(i, j)] } else { f64::from(u8::from(i == j)) * own })
+    };
+    let dof = |(label, node, direction): (&str, &str, Direction)| ImportedDof {
+        label: label.into(),
+        node: node.into(),
+        direction,
+    };
+    let dofs =
+        [("1", "1", Direction::Z), ("2", "2", Direction::Z), ("3", "3", Direction::Z), ("3r", "3", Direction::Ry)];
+    let (mass, stiffness) = (beside(&chain.mass, 1.0), beside(&chain.stiffness, 1e6));
+    let dofs = Some(dofs.into_iter().map(dof).collect());
+    let parameters = ImportedParameters { mass, stiffness, nodes: None, dofs, lines: Vec::new() };
+    let structure = parameters.build(&[]).expect("matrices");
     let zero = c64::new(0.0, 0.0);
-    let runs =
-        [46.0, 110.0].map(|w| displacements_run(w, (2, 2.0), &[c64::new(1.0, 0.1), zero, c64::new(0.5, 0.2)], 1e-4));
+    let motion = [c64::new(1.0, 0.1), zero, c64::new(0.5, 0.2), zero];
+    let omegas = structure.modes().expect("modes").omega.clone();
+    let runs = [0.98, 1.03].map(|ratio| displacements_run(ratio * omegas[1], (2, 2.0), &motion, 1e-4));
     let problem = Problem { structure: &structure, sources: &[], runs: &runs };
     let data = Data::new(&problem).expect("runs");
     let predictor = Arc::new(Predictor::new(&structure, Vec::new(), &data).expect("a model"));
     let control = Control::unattended();
     let stated = ReferenceModel::new(predictor, &data, &control, &|_| {}).expect("predictions");
-    let parameter = UpdatingParameter::Structure(Part::Coupling([0, 1]));
-    let corrections = [Correction { parameter, factor: 1e-9, deviation: 0.0 }];
+    let parameter = UpdatingParameter::Structure(Part::Mode(1));
+    let corrections = [Correction { parameter, factor: 1.05, deviation: 0.0 }];
     let updating = with_corrections(Updating::all(&structure, &[], &data), &corrections);
     let updated = stated.updated(&updating, &[], &Vec::new()).expect("an updated model");
     assert_ne!(updated.predictor.structure().neighbours(), structure.neighbours());
