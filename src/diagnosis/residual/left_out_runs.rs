@@ -14,7 +14,7 @@ impl Data {
         let runs = kept.iter().map(|&r| self.runs[r].clone()).collect();
         let sessions = kept.iter().filter_map(|&r| self.sessions.get(r).copied()).collect();
         let left_out = self.left_out + self.runs.len() - kept.len();
-        Self { runs, sessions, left_out, ..self.clone() }
+        Self { runs, left_out, sessions, ..self.clone() }
     }
 
     /// Whether so many `more` runs may be left out: of a few one, of many one in eight.
