@@ -128,13 +128,22 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     let mut faults = channels::find(&predictor, data, &reference.predictions);
     let as_stated = reference.agreement();
     drop(reference);
-    let (mendable, mut left_out) = (faults.len(), Vec::new());
+    let (mendable, mut left_out, mut kept) = (faults.len(), Vec::new(), Vec::new());
     let mut diagnosis = loop {
-        let relied_on = channels::mended(data, &faults).without_runs(&left_out);
+        let mended = channels::mended(data, &faults);
+        let relied_on = Data { kept: kept.clone(), ..mended.without_runs(&left_out) };
         let predictor = Arc::new(Predictor::new(problem.structure, problem.known(), &relied_on)?);
         let reference = ReferenceModel::new(predictor, &relied_on, control, early)?;
         match explained(problem, reference)? {
-            Ok(diagnosis) => break diagnosis,
+            Ok(diagnosis) => {
+                let run_faults = run_faults(problem, &mended, &diagnosis, &left_out, control)?;
+                let fitting: Vec<usize> = run_faults.iter().filter(|f| f.fits()).map(|f| f.run).collect();
+                if fitting.is_empty() || control.is_late() {
+                    break Diagnosis { run_faults, ..diagnosis };
+                }
+                left_out.retain(|run| !fitting.contains(run));
+                kept.extend(fitting);
+            }
             Err(Unreliable::Channel(fault)) => faults.push(fault),
             Err(Unreliable::Run(number)) => left_out.push(number),
         }
@@ -145,7 +154,6 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
         diagnosis.error_before = as_stated.error;
         diagnosis.channel_faults = faults;
     }
-    diagnosis.run_faults = run_faults(problem, data, &diagnosis, &left_out, control)?;
     Ok(diagnosis)
 }
 

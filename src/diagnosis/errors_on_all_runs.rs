@@ -39,7 +39,8 @@ pub(super) fn with_errors(
     for (suggestion, error) in diagnosis.suggestions.iter_mut().zip(errors) {
         suggestion.error_after = error.unwrap_or(suggestion.error_after);
     }
-    diagnosis.run_faults = run_faults(problem, all, &diagnosis, &left_out, control)?;
+    diagnosis.run_faults =
+        run_faults(problem, &mended(all, &diagnosis.channel_faults), &diagnosis, &left_out, control)?;
     Ok(diagnosis)
 }
 

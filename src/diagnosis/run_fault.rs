@@ -24,13 +24,23 @@ pub struct RunFault {
     pub run: usize,
     /// What is misread by a factor; none where no factor explains it.
     pub misreading: Option<Misreading>,
-    /// Error of the model with all that was found, relative, on all runs.
+    /// Error of the model with all that was found, relative, on this run.
+    pub own_error: f64,
+    /// The same on all runs.
     pub error_before: f64,
     /// The same without the runs that do not fit.
     pub error_after: f64,
 }
 
+/// How many times the error of the other runs that of a run may be which fits them.
+const FITTING: f64 = 3.0;
+
 impl RunFault {
+    /// Whether it fits the others beside what was found without it, though it did not before.
+    pub(super) fn fits(&self) -> bool {
+        self.misreading.is_none() && self.own_error < FITTING * self.error_after
+    }
+
     /// The fault in a sentence; `runs` are those of the project.
     pub fn words(&self, runs: &[Run]) -> String {
         let name = runs.get(self.run).map_or_else(|| format!("run {}", self.run + 1), |run| run.file.clone());

@@ -221,6 +221,8 @@ pub struct Data {
     pub chosen: bool,
     /// How many runs were left out because they do not fit the others.
     pub left_out: usize,
+    /// Numbers of the runs that were left out and turned out to fit: they are not doubted again.
+    pub kept: Vec<usize>,
     /// Rows of the DOFs that are rotations.
     pub rotations: Vec<usize>,
     /// Number of the session of each run; none where they cannot be told apart.
@@ -256,6 +258,7 @@ impl Data {
             doubted: Vec::new(),
             chosen: false,
             left_out: 0,
+            kept: Vec::new(),
             rotations,
             sessions: Vec::new(),
         }

@@ -98,7 +98,7 @@ impl Estimator<'_> {
     }
 
     /// The same of every run and channel.
-    pub(super) fn errors(&self, predictions: &[RunPrediction], effects: &[Source]) -> Vec<Vec<f64>> {
+    pub(crate) fn errors(&self, predictions: &[RunPrediction], effects: &[Source]) -> Vec<Vec<f64>> {
         let errors_of_run = |(run, prediction): (&RunData, &RunPrediction)| {
             let gain = |channel: &ChannelData| gain_of(effects, &channel.name, run.omega);
             let error_of_channel = |(c, channel): (usize, &ChannelData)| {

@@ -36,11 +36,11 @@ struct Suspect {
 }
 
 impl Suspect {
-    /// The suspect of those that `screen` sees, by what `best` leaves.
-    fn of(screen: &Screen, best: fn(&Screen) -> Placing, control: &Control) -> Option<Self> {
+    /// The suspect of `runs`, places among those that `screen` sees, by what `best` leaves.
+    fn of(screen: &Screen, best: fn(&Screen) -> Placing, runs: &[usize], control: &Control) -> Option<Self> {
         let left = |screen: &Screen| best(screen).chi_square / screen.count().max(1) as f64;
-        let without = |run: usize| (run, left(&screen.without_run(run)));
-        let mut runs = control.map(screen.runs(), without);
+        let without = |k: usize| (runs[k], left(&screen.without_run(runs[k])));
+        let mut runs = control.map(runs.len(), without);
         runs.sort_by(|a, b| a.1.total_cmp(&b.1));
         let [(run, least), (_, next), ..] = runs[..] else { return None };
         Some(Self { run, left: least, otherwise: next.min(left(screen)) })
@@ -54,15 +54,19 @@ impl Suspect {
         reference: &ReferenceModel,
     ) -> Option<usize> {
         let told = |suspect: &Self, screen: &Screen| suspect.otherwise > MORE * suspect.left && reason(suspect, screen);
-        let first = Self::of(screen, best, reference.control)?;
+        let data = reference.data;
+        let runs: Vec<usize> = (0..data.runs.len()).filter(|&r| !data.kept.contains(&data.runs[r].index)).collect();
+        let first = Self::of(screen, best, &runs, reference.control)?;
         if told(&first, screen) {
             return Some(first.run);
         }
-        if !reference.data.may_leave_out(2) {
+        if !data.may_leave_out(2) {
             return None;
         }
         let rest = screen.without_run(first.run);
-        let second = Self::of(&rest, best, reference.control).filter(|second| told(second, &rest))?;
+        let others = runs.into_iter().filter(|&run| run != first.run);
+        let others: Vec<usize> = others.map(|run| run - usize::from(run > first.run)).collect();
+        let second = Self::of(&rest, best, &others, reference.control).filter(|second| told(second, &rest))?;
         Some(second.run + usize::from(second.run >= first.run))
     }
 

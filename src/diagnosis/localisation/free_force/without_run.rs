@@ -51,11 +51,6 @@ impl Screen {
         Placing { spots: Vec::new(), chi_square: self.nothing() }
     }
 
-    /// Number of runs.
-    pub(crate) fn runs(&self) -> usize {
-        self.cells.len()
-    }
-
     /// Number of real data.
     pub(crate) fn count(&self) -> usize {
         self.cells.iter().flatten().map(|cell| 2 * cell.residual.len()).sum()
