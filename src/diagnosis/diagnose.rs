@@ -157,7 +157,7 @@ fn on_runs(problem: &Problem, data: &Data, control: &Control, early: &Early) -> 
     Ok(diagnosis)
 }
 
-/// Explains what the reference model leaves; or a channel that is not to be relied on.
+/// Explains what the reference model leaves; or a run or channel that is not to be relied on.
 fn explained(problem: &Problem, reference: ReferenceModel) -> Result<Result<Diagnosis, Unreliable>, DiagnosisError> {
     let before = sum_of_squares(&reference.estimator().residual(&reference.predictions));
     let noise_floor = reference.noise_floor(&[], &reference.predictions);

@@ -121,4 +121,17 @@ mod tests {
         // Another test: no factor explains it.
         assert_eq!(told([c64::new(0.0, 1.0), real(-2.0), real(0.3)]), None);
     }
+
+    #[test]
+    fn a_run_that_is_predicted_as_well_as_the_others_fits() {
+        let fault = |misreading: Option<Misreading>, own_error: f64| RunFault {
+            run: 1,
+            misreading,
+            own_error,
+            error_before: 0.02,
+            error_after: 0.01,
+        };
+        assert!(fault(None, 0.02).fits() && !fault(None, 0.05).fits());
+        assert!(!fault(Some(Misreading::Motions(0.9)), 0.02).fits());
+    }
 }

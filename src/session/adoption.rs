@@ -1,5 +1,5 @@
-//! What of a diagnosis is taken over into a project: the corrections of its model, its suggestions, its faults of channels and runs. Each step
-//! is made on the document as the steps before leave it. The command line and the window adopt by the same steps.
+//! What of a diagnosis is taken over into a project: the corrections of its model, its suggestions, its faults of channels and runs. Each
+//! step is made on the document as the steps before leave it. The command line and the window adopt by the same steps.
 
 use super::command::{Command, SourceAt, SourceSpec};
 use super::corrections::{Adopted, adopt, adopt_all};
@@ -52,8 +52,8 @@ impl Adoption {
         Ok(())
     }
 
-    /// The whole of a diagnosis: corrections, the first suggestion with its set, faults of channels and runs. `known` are the sources that act
-    /// in the model, `project` is what was diagnosed.
+    /// The whole of a diagnosis: corrections, the first suggestion with its set, faults of channels and runs. `known` are the sources that
+    /// act in the model, `project` is what was diagnosed.
     ///
     /// # Errors
     /// [`Refusal`] of a correction or a suggestion.

@@ -105,7 +105,7 @@ enum First<'a> {
     Fits(ReferenceModel<'a>, Vec<(ReferenceModel<'a>, FittedModel)>, Option<(ReferenceModel<'a>, f64)>),
     /// Nothing: corrections alone, as likely as they make the model.
     None(ReferenceModel<'a>),
-    /// A channel that is not to be relied on.
+    /// A run or channel that is not to be relied on.
     Unreliable(Unreliable),
 }
 

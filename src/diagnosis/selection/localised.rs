@@ -62,22 +62,20 @@ impl<'a> Seen<'a> {
 
 impl<'a> ReferenceModel<'a> {
     /// The model with the updating parameters that fit best beside what leaves least at the measured motion, and the laws
-    /// regressed there, best first; or the channel that does not fit the others, whatever the law.
+    /// regressed there, best first; or the run or channel that does not fit the others, whatever the law.
     pub(crate) fn localised(
         &self,
     ) -> Result<Result<(ReferenceModel<'a>, Vec<UnfittedSet>), Unreliable>, DiagnosisError> {
-        if let Some(run) = self.unreliable_run()? {
-            return Ok(Err(Unreliable::Run(run)));
-        }
-        if let Some(fault) = self.plainly_unreliable()? {
-            return Ok(Err(Unreliable::Channel(fault)));
-        }
         let (stated, known) = self.predictor.stated();
-        let mut here = self.moved_beside(Updating::all(stated, known, self.data))?;
+        let rigid = self.updated(&Updating::all(stated, known, self.data), &[], &Vec::new())?;
+        if let Some(unreliable) = rigid.plainly_unreliable()? {
+            return Ok(Err(unreliable));
+        }
+        let mut here = self.moved_beside(rigid)?;
         if here.least.min(here.free) > CLOSE * self.count() as f64
             && let Some(updating) = self.best_path(&here)?
         {
-            let there = self.moved_beside(updating)?;
+            let there = self.moved_beside(self.updated(&updating, &[], &Vec::new())?)?;
             here = if there.least < here.least { there } else { here };
         }
         if let Some(fault) = self.doubted(&here)? {
@@ -86,10 +84,20 @@ impl<'a> ReferenceModel<'a> {
         Ok(Ok((here.reference, here.unfitted)))
     }
 
-    fn moved_beside(&self, updating: Updating) -> Result<Seen<'a>, DiagnosisError> {
+    /// The run or the channel that plainly does not fit the others, whatever this model lacks at one place.
+    fn plainly_unreliable(&self) -> Result<Option<Unreliable>, DiagnosisError> {
+        let screen = self.view(None)?.screen;
+        if let Some(run) = self.unreliable_run(&screen) {
+            return Ok(Some(Unreliable::Run(run)));
+        }
+        Ok(self.unreliable_channel(&screen)?.map(Unreliable::Channel))
+    }
+
+    /// The model moved on from `updated` beside what leaves least at each step.
+    fn moved_beside(&self, updated: ReferenceModel<'a>) -> Result<Seen<'a>, DiagnosisError> {
         // Laws of many parameters take long: they are looked at where the others lead no further.
         let mut breadth = Breadth::Near;
-        let mut here = self.updated(&updating, &[], &Vec::new())?.seen(breadth, RegressedSpots::new())?;
+        let mut here = updated.seen(breadth, RegressedSpots::new())?;
         for _ in 0..STEPS {
             if here.least < CLOSE * self.count() as f64 || self.control.is_late() {
                 break;
@@ -205,9 +213,11 @@ impl<'a> ReferenceModel<'a> {
         }
         let (before, determinant) = (here.least, here.reference.noise_determinant());
         let mut best: Option<(f64, ChannelFault)> = None;
-        for fault in self.suspects(&here.reference.linearisation.updating)? {
+        for fault in here.reference.suspects()? {
             let data = mended(self.data, std::slice::from_ref(&fault));
-            let seen = self.with_data(&data).moved_beside(here.reference.linearisation.updating.clone())?;
+            let doubting = self.with_data(&data);
+            let updated = doubting.updated(&here.reference.linearisation.updating, &[], &Vec::new())?;
+            let seen = doubting.moved_beside(updated)?;
             let after = seen.least + seen.reference.noise_determinant() - determinant;
             let relieved = after < RELIEVED * before;
             if relieved && best.as_ref().is_none_or(|(least, _)| after < *least) {

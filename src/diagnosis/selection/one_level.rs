@@ -98,7 +98,7 @@ fn levels(problem: &Problem, reference: &ReferenceModel) -> Vec<(f64, Vec<usize>
     levels
 }
 
-/// What explains `runs` alone; none where no effect does. Or a channel that is not to be relied on.
+/// What explains `runs` alone; none where no effect does. Or a run or channel that is not to be relied on.
 fn on_runs(
     problem: &Problem,
     all: &ReferenceModel,

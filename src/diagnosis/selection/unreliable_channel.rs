@@ -4,6 +4,7 @@
 
 use crate::diagnosis::channels::{ChannelFault, Fault, mended};
 use crate::diagnosis::localisation::cell::FreeForce;
+use crate::diagnosis::localisation::free_force::Screen;
 use crate::diagnosis::localisation::location::Spot;
 use crate::diagnosis::residual::data::{DiagnosisError, if_possible};
 use crate::diagnosis::selection::reference_model::ReferenceModel;
@@ -44,11 +45,9 @@ struct Doubt {
 }
 
 impl ReferenceModel<'_> {
-    /// The channel that plainly does not fit the others, whatever the model lacks at one place.
-    pub(super) fn plainly_unreliable(&self) -> Result<Option<ChannelFault>, DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        let updating = Updating::all(stated, known, self.data);
-        let (all, doubts) = self.doubts(&updating)?;
+    /// The channel that plainly does not fit the others, whatever the model lacks at one of the places that `screen` sees from it.
+    pub(super) fn unreliable_channel(&self, screen: &Screen) -> Result<Option<ChannelFault>, DiagnosisError> {
+        let (all, doubts) = self.doubts(screen)?;
         let noise = NOISE * self.count() as f64;
         // Two channels alone agree beside many a place.
         let enough = doubts.len() > FEWEST;
@@ -57,25 +56,26 @@ impl ReferenceModel<'_> {
         if next < PLAIN * best.left.max(self.count() as f64) {
             return Ok(None);
         }
-        self.scattering(best, &updating)
+        self.scattering(best)
     }
 
-    /// The channels that may be unreliable beside the model with `updating`: that which lets free forces leave least when it is doubted, and
-    /// the next where that lets them leave about as little. None where one is doubted already.
-    pub(super) fn suspects(&self, updating: &Updating) -> Result<Vec<ChannelFault>, DiagnosisError> {
-        let (_, doubts) = if self.data.doubted.is_empty() { self.doubts(updating)? } else { (0.0, Vec::new()) };
+    /// The channels that may be unreliable beside this model: that which lets free forces leave least when it is doubted, and the next where
+    /// that lets them leave about as little. None where one is doubted already.
+    pub(super) fn suspects(&self) -> Result<Vec<ChannelFault>, DiagnosisError> {
+        if !self.data.doubted.is_empty() {
+            return Ok(Vec::new());
+        }
+        let (_, doubts) = self.doubts(&self.view(None)?.screen)?;
         let noise = self.count() as f64;
         let least = doubts.first().map_or(0.0, |best| best.left.max(noise));
         let near = doubts.iter().take(SUSPECTS).filter(|doubt| doubt.left < PLAIN * least);
-        let faults = near.map(|doubt| self.scattering(doubt, updating)).collect::<Result<Vec<_>, _>>()?;
+        let faults = near.map(|doubt| self.scattering(doubt)).collect::<Result<Vec<_>, _>>()?;
         Ok(faults.into_iter().flatten().collect())
     }
 
-    /// What free forces at one place leave of the model with `updating`, and the channels doubted one at a time, that which lets least be
-    /// left first; none where free forces at a place that is no channel leave noise, or of too few channels.
-    fn doubts(&self, updating: &Updating) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
-        let Some(own) = if_possible(self.updated(updating, &[], &Vec::new()))? else { return Ok((0.0, Vec::new())) };
-        let screen = own.view(None)?.screen;
+    /// What free forces at one place leave of this model, seen from it by `screen`, and the channels doubted one at a time, that which lets
+    /// least be left first; none where free forces at a place that is no channel leave noise, or of too few channels.
+    fn doubts(&self, screen: &Screen) -> Result<(f64, Vec<Doubt>), DiagnosisError> {
         let placings = screen.singles();
         let all = placings.first().map_or(0.0, |placing| placing.chi_square);
         let doubted = self.data.doubted.len();
@@ -94,9 +94,9 @@ impl ReferenceModel<'_> {
         let likely = placings.iter().take_while(|placing| placing.chi_square <= most);
         let channels = likely.filter_map(|placing| response(&screen.spots[placing.spots[0]]));
         let channels: Vec<String> = channels.take(MOST_DOUBTED).collect();
-        let doubt = |c: usize| self.doubt(&channels[c], SCATTERS[0], updating);
+        let doubt = |c: usize| self.doubt(&channels[c], SCATTERS[0], &self.linearisation.updating);
         let doubts = self.control.map(channels.len(), doubt).into_iter().collect::<Result<Vec<_>, _>>()?;
-        let relative = |doubt: Doubt| Doubt { left: doubt.left - own.noise_determinant(), ..doubt };
+        let relative = |doubt: Doubt| Doubt { left: doubt.left - self.noise_determinant(), ..doubt };
         let mut doubts: Vec<Doubt> = doubts.into_iter().flatten().map(relative).collect();
         doubts.sort_by(|a, b| a.left.total_cmp(&b.left));
         Ok((all, doubts))
@@ -115,8 +115,9 @@ impl ReferenceModel<'_> {
     }
 
     /// By how much the channel of `doubt` scatters: the likeliest of a few scatters, each beside free forces at the place that leaves least
-    /// and the updating parameters that fit these, from `updating` on. None where a gain and a delay explain what it reads.
-    fn scattering(&self, doubt: &Doubt, updating: &Updating) -> Result<Option<ChannelFault>, DiagnosisError> {
+    /// and the updating parameters that fit these. None where a gain and a delay explain what it reads.
+    fn scattering(&self, doubt: &Doubt) -> Result<Option<ChannelFault>, DiagnosisError> {
+        let updating = &self.linearisation.updating;
         let moved = |k: usize| -> Result<Option<(Doubt, Updating)>, DiagnosisError> {
             let Some(there) = self.doubt(&doubt.channel, SCATTERS[k], updating)? else { return Ok(None) };
             let data = mended(self.data, &[there.fault()]);

@@ -95,25 +95,22 @@ impl Suspect {
 }
 
 impl ReferenceModel<'_> {
-    /// The run, by its number in the project, that does not fit the others whatever the model lacks at one place; as it is stated.
-    pub(super) fn unreliable_run(&self) -> Result<Option<usize>, DiagnosisError> {
-        let (stated, known) = self.predictor.stated();
-        let updating = Updating::all(stated, known, self.data);
+    /// The run, by its number in the project, that does not fit the others whatever the model lacks at one of the places that `screen` sees
+    /// from it.
+    pub(super) fn unreliable_run(&self, screen: &Screen) -> Option<usize> {
         if !self.data.may_leave_out(1) || self.control.is_late() {
-            return Ok(None);
+            return None;
         }
-        let Some(own) = if_possible(self.updated(&updating, &[], &Vec::new()))? else { return Ok(None) };
-        let screen = own.view(None)?.screen;
         let by_place =
             |suspect: &Suspect, screen: &Screen| suspect.is_plain() || suspect.is_misread(screen, Screen::best_place);
         let alone =
             |suspect: &Suspect, screen: &Screen| suspect.left < NOISE && suspect.is_misread(screen, Screen::no_place);
         let left_out = |best: fn(&Screen) -> Placing, reason: fn(&Suspect, &Screen) -> bool| {
-            let enough = best(&screen).chi_square > screen.count() as f64;
-            enough.then(|| Suspect::left_out(&screen, best, reason, self)).flatten()
+            let enough = best(screen).chi_square > screen.count() as f64;
+            enough.then(|| Suspect::left_out(screen, best, reason, self)).flatten()
         };
         let run = left_out(Screen::best_place, by_place).or_else(|| left_out(Screen::no_place, alone));
-        Ok(run.map(|r| self.data.runs[r].index))
+        run.map(|r| self.data.runs[r].index)
     }
 }
 
