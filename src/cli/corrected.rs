@@ -24,6 +24,7 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
             Part::Stiffness => ("stiffness", "", Value::Null),
             Part::Mass => ("mass", "", Value::Null),
             Part::Mode(mode) => ("mode", "mode", json!(mode + 1)),
+            Part::ModeCoupling(pair) => ("mode_coupling", "modes", json!(pair.map(|mode| mode + 1))),
             Part::ModeDamping(mode) => ("mode_damping", "mode", json!(mode + 1)),
             Part::ModeDampingPerOctave(mode) => ("mode_damping_per_octave", "mode", json!(mode + 1)),
             Part::GroundSpring(dof) => ("spring", "dofs", dofs(&[*dof])),
@@ -46,10 +47,6 @@ pub(super) fn correction(project: &Project, correction: &Correction) -> Value {
         }
         UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel) => ("gain", "channel", json!(channel)),
         UpdatingParameter::Delay(channel) => ("delay", "channel", json!(channel)),
-        UpdatingParameter::Shape { mode, channel } => {
-            map.insert("channel".into(), json!(channel));
-            ("shape", "mode", json!(mode + 1))
-        }
         UpdatingParameter::Session(session) => ("session", "session", json!(session + 1)),
     };
     map.insert("what".into(), json!(what));

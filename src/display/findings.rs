@@ -195,7 +195,6 @@ pub fn corrected(structure: &Structure, known: &[Source], parameter: &UpdatingPa
         }
         UpdatingParameter::Gain(channel) | UpdatingParameter::ForceGain(channel) => format!("Gain of {channel}"),
         UpdatingParameter::Delay(channel) => format!("Delay of {channel}"),
-        UpdatingParameter::Shape { mode, channel } => format!("Shape of mode {} at {channel}", mode + 1),
         UpdatingParameter::Session(session) => format!("Stiffness of session {}", session + 1),
     }
 }
@@ -207,6 +206,7 @@ fn corrected_part(structure: &Structure, part: Part) -> String {
         Part::Stiffness => "All stiffness".to_owned(),
         Part::Mass => "All mass".to_owned(),
         Part::Mode(mode) => format!("Stiffness of mode {}", mode + 1),
+        Part::ModeCoupling([first, second]) => format!("Coupling of modes {} and {}", first + 1, second + 1),
         Part::ModeDamping(mode) => format!("Damping of mode {}", mode + 1),
         Part::ModeDampingPerOctave(mode) => format!("Damping of mode {} an octave higher", mode + 1),
         Part::GroundSpring(dof) => format!("Spring {}", place(&[dof])),

@@ -36,6 +36,8 @@ pub enum Unknown {
     Mass,
     /// Relative change of the stiffness of one undamped mode by 1: `dK = omega_r^2 (M phi_r)(M phi_r)^T`.
     ModeStiffness(usize),
+    /// Coupling of two undamped modes by stiffness: `dK = omega_r omega_s ((M phi_r)(M phi_s)^T + (M phi_s)(M phi_r)^T)`.
+    ModeCoupling([usize; 2]),
     /// Relative change by 1 of the damping that laws of the whole structure give an undamped mode.
     ModeDamping(usize),
     /// Relative change by 1 of that an octave above the natural frequency, by a power of frequency.
@@ -123,6 +125,7 @@ fn check(unknown: Unknown, sources: &[Source], size: usize, forces: usize) -> Re
         }
         Unknown::Stiffness | Unknown::Mass | Unknown::Part(_) => true,
         Unknown::ForceScale(force) => force < forces,
+        Unknown::ModeCoupling(pair) => pair.iter().all(|row| *row < size),
         Unknown::ModeStiffness(row) | Unknown::ModeDamping(row) | Unknown::ModeDampingPerOctave(row) => row < size,
     };
     let missing = SensitivityError::NoSuchUnknown { unknown, sources: sources.len(), forces, size };
@@ -259,7 +262,8 @@ pub(crate) fn pseudo_force(
         }
         Unknown::ModeDamping(mode) => linear.apply_mode_damping(mode, w, x),
         Unknown::ModeDampingPerOctave(mode) => linear.apply_mode_damping_per_octave(mode, w, x),
-        Unknown::ModeStiffness(mode) => linear.apply_mode(mode, x),
+        Unknown::ModeStiffness(mode) => linear.apply_modal_stiffness([mode; 2], x),
+        Unknown::ModeCoupling(pair) => linear.apply_modal_stiffness(pair, x),
         Unknown::Part(part) => Some(share_force(linear, &linear.structure().share(part)?, x, w)),
         Unknown::Source { source, parameter } => source_force(linear, &sources[source], parameter, x, w),
         Unknown::ForceScale(_) => None,

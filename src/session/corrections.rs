@@ -76,7 +76,6 @@ pub(crate) fn adopt(corrections: &[Correction], known: &[Source], document: &Doc
             UpdatingParameter::Gain(_)
             | UpdatingParameter::ForceGain(_)
             | UpdatingParameter::Delay(_)
-            | UpdatingParameter::Shape { .. }
             | UpdatingParameter::Session(_) => {
                 adopted.left.push(k);
             }

@@ -8,7 +8,8 @@
 //! (Friswell and Mottershead, Finite Element Model Updating in Structural Dynamics, 1995, chapter 8).
 
 use super::elastic_supports::{ElasticSupports, HeldColumn};
-use super::matrices::{Element, SystemMatrices};
+use super::matrices::Element;
+use super::modal_stiffness::ModalStiffness;
 use super::mode_damping::{DampingOfMode, modal_pattern};
 use super::share::{HeldDof, Part, Share, Triplets, add};
 use super::system::{Structure, StructureKind};
@@ -27,9 +28,12 @@ impl Structure {
             vec![(i, i, value), (j, j, value), (i, j, -value), (j, i, -value)]
         };
         Some(match part {
-            Part::Stiffness | Part::Mass | Part::Mode(_) | Part::ModeDamping(_) | Part::ModeDampingPerOctave(_) => {
-                return None;
-            }
+            Part::Stiffness
+            | Part::Mass
+            | Part::Mode(_)
+            | Part::ModeCoupling(_)
+            | Part::ModeDamping(_)
+            | Part::ModeDampingPerOctave(_) => return None,
             Part::ElementStiffness(range) => self.of_elements(range, false),
             Part::ElementMass(range) => self.of_elements(range, true),
             Part::GroundSpring(i) => Share::of_stiffness(vec![(i, i, (0..k.ncols()).map(|j| k[(i, j)]).sum())]),
@@ -134,10 +138,11 @@ impl Structure {
         };
         changed.matrices = Some(matrices.clone());
         // Modes are those of the structure with its parts as they are now.
-        let corrected = changed.of_modes(&matrices, factors);
+        let mut corrected = ModalStiffness::new(&matrices, || changed.modes().ok(), factors);
+        let added = corrected.as_ref().map(ModalStiffness::stiffness);
         for matrices in [Some(&mut matrices), elastic.as_mut().map(|e| &mut e.rigid)].into_iter().flatten() {
-            if let Some(corrected) = &corrected {
-                matrices.stiffness += corrected;
+            if let Some(added) = &added {
+                matrices.stiffness += added;
             }
             for &(part, factor) in factors {
                 match part {
@@ -149,7 +154,11 @@ impl Structure {
         }
         for &(part, factor) in factors.iter().filter(|(part, _)| matches!(part, Part::Stiffness | Part::Mass)) {
             changed.scale_range([0, self.elements.len().saturating_sub(1)], part == Part::Mass, factor);
+            if let Some(corrected) = corrected.as_mut().filter(|_| part == Part::Stiffness) {
+                corrected.multiply(factor);
+            }
         }
+        changed.origin.modal_stiffness = corrected;
         (changed.matrices, changed.origin.elastic_supports) = (Some(matrices), elastic);
         changed.correct_damping(factors);
         changed.correct_base_loads(&bare, factors);
@@ -185,6 +194,11 @@ impl Structure {
     /// Modes whose damping is corrected.
     pub fn damping_of_modes(&self) -> &[DampingOfMode] {
         &self.origin.damping_of_modes
+    }
+
+    /// The corrected stiffness of modes and their couplings; none where none is corrected.
+    pub(crate) fn modal_stiffness(&self) -> Option<&ModalStiffness> {
+        self.origin.modal_stiffness.as_ref()
     }
 
     /// Takes the factors on the damping of modes among `factors` beside those that are there, on the modes as they are now.
@@ -232,27 +246,6 @@ impl Structure {
         }
     }
 
-    /// `sum (f - 1) omega_r^2 (M phi_r)(M phi_r)^T` for the modes among `factors`; none where none is.
-    fn of_modes(&self, matrices: &SystemMatrices, factors: &[(Part, f64)]) -> Option<Mat<f64>> {
-        if !factors.iter().any(|(part, f)| matches!(part, Part::Mode(_)) && *f != 1.0) {
-            return None;
-        }
-        let modes = self.modes().ok()?;
-        let n = self.len();
-        let mut stiffness = Mat::zeros(n, n);
-        for &(part, factor) in factors {
-            let Part::Mode(r) = part else { continue };
-            let weighted = modal_pattern(&matrices.mass, modes.shapes.col_as_slice(r));
-            let size = (factor - 1.0) * modes.omega[r].powi(2);
-            for j in 0..n {
-                for i in 0..n {
-                    stiffness[(i, j)] += size * weighted[i] * weighted[j];
-                }
-            }
-        }
-        Some(stiffness)
-    }
-
     /// Springs to the ground and between DOFs, where all are translations and the stiffness couples few: those of a chain,
     /// or of small matrices.
     pub fn springs(&self, most: usize) -> Vec<Part> {
@@ -278,6 +271,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
     use super::*;
     use crate::common::models::{chain, short_cantilever};
+    use crate::structure::SystemMatrices;
 
     #[test]
     fn frequencies_move_as_the_factors_say() {

@@ -24,6 +24,8 @@ pub enum Part {
     ElementMass([usize; 2]),
     /// Stiffness of one undamped mode.
     Mode(usize),
+    /// Coupling of two undamped modes by stiffness, over `omega_r omega_s`: its factor is the exponential of it.
+    ModeCoupling([usize; 2]),
     /// Damping that laws of the whole structure give one undamped mode.
     ModeDamping(usize),
     /// The same an octave above its natural frequency, over that at it: 1 as structural damping, 2 as viscous.

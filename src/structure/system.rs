@@ -4,6 +4,7 @@ use super::elastic_supports::ElasticSupports;
 use super::geometry::{Direction, Dof, Node};
 use super::lumped_mass::LumpedMass;
 use super::matrices::{Element, SystemMatrices};
+use super::modal_stiffness::ModalStiffness;
 use super::mode_damping::DampingOfMode;
 use super::reduction::outcome::Reduction;
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,8 @@ pub struct Origin {
     pub component_mass: f64,
     /// Modes whose damping by laws of the whole structure is corrected.
     pub damping_of_modes: Vec<DampingOfMode>,
+    /// Modes whose stiffness is corrected, and their couplings.
+    pub modal_stiffness: Option<ModalStiffness>,
     /// Supports that give way.
     pub elastic_supports: Option<ElasticSupports>,
 }

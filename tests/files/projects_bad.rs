@@ -295,6 +295,10 @@ fn numbers_beyond_physical_quantities() {
     chain(&correction("1e40"), &format!("p.toml:10: `factor = 1e40` {beyond}"));
     chain(&correction("1e12"), &format!("p.toml:10: `factor = 1000000000000` {no_factor}"));
     chain(&correction("0"), &format!("p.toml:10: `factor = 0` {no_factor}"));
+    let coupling = |modes: &str| format!("[[structure.correction]]\nwhat = \"mode_coupling\"\n{modes}factor = 1.1\n");
+    assert!(plan(&format!("{CHAIN}{}", coupling("modes = [1, 2]\n")), Path::new("p.toml")).is_ok());
+    let different = "`modes = [2, 2]` is not a usable number; it must be two different modes";
+    chain(&coupling("modes = [2, 2]\n"), &format!("p.toml:8: {different}"));
     let late = "p.toml:10: `delay = 1000000` is not a usable number; it must be from -60 s to 60 s";
     chain("[[sensor]]\nchannel = \"acc@1\"\ndelay = 1e6\n", late);
 }

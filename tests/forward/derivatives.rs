@@ -156,6 +156,36 @@ fn the_structure() {
     }
 }
 
+/// Stiffness of modes and their couplings, of a structure where some are corrected already.
+#[test]
+fn the_stiffness_of_modes_and_their_couplings() {
+    let sources = [whole(Effect::MassProportional, 3.0), source(Effect::Quadratic, &[2], &[2000.0])];
+    let parts = [
+        Part::Mode(0),
+        Part::Mode(3),
+        Part::ModeCoupling([0, 1]),
+        Part::ModeCoupling([1, 4]),
+        Part::ModeCoupling([2, 3]),
+    ];
+    let values = [1.04, 0.97, 1.05, 0.96, 1.0];
+    let built = |more: &[(Part, f64)]| {
+        let corrected: Vec<(Part, f64)> = parts.into_iter().zip(values).collect();
+        five_masses().with_factors(&[&corrected[..], &[(Part::Stiffness, 1.02)], more].concat())
+    };
+    let unknown = |part: &Part| match part {
+        Part::Mode(mode) => Unknown::ModeStiffness(*mode),
+        Part::ModeCoupling(pair) => Unknown::ModeCoupling(*pair),
+        _ => Unknown::Stiffness,
+    };
+    let unknowns: Vec<Unknown> = parts.iter().map(unknown).collect();
+    let (response, derivatives) = derived(&built(&[]), &sources, &unknowns);
+    for (part, derivative) in parts.iter().zip(&derivatives) {
+        let moved = |factor: f64| solved(&built(&[(*part, factor)]), &sources, Some(&response));
+        let error = mismatch(derivative, &moved(1.0 + 1e-5), &moved(1.0 - 1e-5), 1e-5);
+        assert!(error < 1e-4, "{part:?}: {error:.2e}");
+    }
+}
+
 /// Damping of single modes, of a structure where it is corrected already: beside viscous and hysteretic laws, with parts and
 /// laws themselves differentiated as well.
 #[test]

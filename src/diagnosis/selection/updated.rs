@@ -11,9 +11,8 @@ use crate::diagnosis::selection::search_result::{agrees, most_of_noise};
 use crate::diagnosis::selection::solver_settings::settings_for;
 use crate::diagnosis::updating::measured_motion::MeasuredMotion;
 use crate::diagnosis::updating::noise_model::{Derivatives, Linearisation, amplitudes, of_channel};
-use crate::diagnosis::updating::parameters::{Updating, UpdatingParameter};
+use crate::diagnosis::updating::parameters::Updating;
 use crate::diagnosis::updating::scales::Scales;
-use crate::diagnosis::updating::shape_errors::ShapeErrors;
 use crate::effects::Source;
 use crate::math::statistics::sum_of_squares;
 use crate::response::harmonic_balance::Settings;
@@ -81,7 +80,6 @@ impl<'a> ReferenceModel<'a> {
         let seen = linear.then(seen).flatten();
         let runs = self.data.runs.iter().zip(predictions);
         let amplitudes: Vec<Vec<Vec<c64>>> = runs.map(|(run, p)| amplitudes(run, &p.channels)).collect();
-        let shapes = ShapeErrors::new(&self.predictor, updating, self.data);
         let of_run = |r: usize| {
             let run = &self.data.runs[r];
             let mut sums: Vec<Vec<(Unknown, f64)>> =
@@ -103,9 +101,7 @@ impl<'a> ReferenceModel<'a> {
                 if !updating.acts_in(k, r) {
                     slope.iter_mut().flatten().for_each(|value| *value = c64::new(0.0, 0.0));
                 }
-                if let UpdatingParameter::Shape { mode, channel } = parameter {
-                    *slope = shapes.slope(*mode, channel, run, &predictions[r]);
-                } else if !parameter.is_of_model() {
+                if !parameter.is_of_model() {
                     *slope = of_channel(parameter, run, &amplitudes[r]);
                 }
             }

@@ -156,7 +156,6 @@ pub(crate) fn is_likely(reference: &ReferenceModel) -> bool {
         UpdatingParameter::Gain(_)
         | UpdatingParameter::ForceGain(_)
         | UpdatingParameter::Delay(_)
-        | UpdatingParameter::Shape { .. }
         | UpdatingParameter::Session(_) => true,
     })
 }

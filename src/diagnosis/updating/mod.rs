@@ -18,5 +18,4 @@ pub(crate) mod plausibility;
 pub mod scales;
 pub mod scatter;
 pub(crate) mod serial_correlation;
-pub(crate) mod shape_errors;
 pub(crate) mod size_factor;

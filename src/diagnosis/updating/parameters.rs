@@ -6,15 +6,13 @@
 //! `N(0, s^2)`; `s` belongs to its class ([`Scales`]), so that it moves only so far as the data ask for it (Friswell and
 //! Mottershead 1995, chapter 8).
 
-use super::parts::{damped_modes, parts};
+use super::parts::{damped_modes, mode_couplings, parts};
 use super::scales::Scales;
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Effect, Place, Source};
 use crate::response::sensitivity::Unknown;
 use crate::structure::{Part, Structure};
 
-/// Most errors of mode shapes, a mode and channel each.
-const MOST_SHAPES: usize = 48;
 /// Prior deviation of a support in multiples of that of the size of a known source: of a clamp that is taken for rigid, half
 /// may be left.
 const SUPPORT: f64 = 2.0;
@@ -34,13 +32,6 @@ pub enum UpdatingParameter {
     ForceGain(String),
     /// Time that a channel is recorded late, s.
     Delay(String),
-    /// Error of the shape of a mode at a response channel, relative to its root mean square over the channels.
-    Shape {
-        /// Number of the mode.
-        mode: usize,
-        /// Name of the channel.
-        channel: String,
-    },
     /// Factor on all stiffness in one session (a joint that was re-seated, another day), by its number among those of the data.
     Session(usize),
 }
@@ -53,7 +44,7 @@ impl UpdatingParameter {
             Self::Structure(Part::Support(_)) | Self::Known(_) => 1,
             Self::Structure(Part::ModeDamping(_)) => 7,
             Self::Structure(Part::ModeDampingPerOctave(_)) => 8,
-            Self::Structure(_) | Self::Shape { .. } => 0,
+            Self::Structure(_) => 0,
             Self::Gain(_) | Self::ForceGain(_) => 2,
             Self::Delay(_) => 3,
             Self::Session(_) => 6,
@@ -115,23 +106,17 @@ impl Updating {
     /// Everything that may be wrong, not wrong yet.
     pub fn all(structure: &Structure, known: &[Source], data: &Data) -> Self {
         let omegas: Vec<f64> = data.runs.iter().map(|run| run.omega).collect();
-        let mut parameters: Vec<UpdatingParameter> = parts(structure, &omegas)
+        let parts = parts(structure, &omegas);
+        let couplings = mode_couplings(structure, &parts, data);
+        let mut parameters: Vec<UpdatingParameter> = parts
             .into_iter()
+            .chain(couplings)
             .chain(damped_modes(structure, known, data))
             .filter(|part| !data.is_ruled_out(*part))
             .map(UpdatingParameter::Structure)
             .collect();
         parameters.extend((0..known.len()).map(UpdatingParameter::Known));
         let [responses, forces] = data.channel_names();
-        // Where no part of the structure is known by itself, its modes are wrong in shape as they are in frequency.
-        let modes = |parameter: &UpdatingParameter| match parameter {
-            UpdatingParameter::Structure(Part::Mode(mode)) => Some(*mode),
-            _ => None,
-        };
-        let shape = |(mode, channel): (usize, &String)| UpdatingParameter::Shape { mode, channel: channel.clone() };
-        let modes: Vec<usize> = parameters.iter().filter_map(modes).collect();
-        let shapes = modes.iter().flat_map(|&mode| responses.iter().map(move |channel| (mode, channel)));
-        parameters.extend(shapes.take(MOST_SHAPES).map(shape));
         // One channel alone cannot be told from the force; of several, each may be off.
         if responses.len() > 1 {
             parameters.extend(responses.iter().cloned().map(UpdatingParameter::Gain));
@@ -321,7 +306,7 @@ impl Updating {
                 let force = run.forces.iter().position(|channel| channel.name == *name);
                 force.map(|force| (Unknown::ForceScale(force), -1.0)).into_iter().collect()
             }
-            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) | UpdatingParameter::Shape { .. } => Vec::new(),
+            UpdatingParameter::Gain(_) | UpdatingParameter::Delay(_) => Vec::new(),
         }
     }
 }
@@ -339,6 +324,7 @@ fn unknown(part: Part) -> Unknown {
         Part::Stiffness => Unknown::Stiffness,
         Part::Mass => Unknown::Mass,
         Part::Mode(r) => Unknown::ModeStiffness(r),
+        Part::ModeCoupling(pair) => Unknown::ModeCoupling(pair),
         Part::ModeDamping(r) => Unknown::ModeDamping(r),
         Part::ModeDampingPerOctave(r) => Unknown::ModeDampingPerOctave(r),
         part => Unknown::Part(part),

@@ -3,6 +3,7 @@
 use crate::diagnosis::residual::data::{Data, RunData};
 use crate::effects::{Place, Source};
 use crate::structure::{Part, Structure, StructureKind};
+use std::collections::BTreeSet;
 
 /// Groups of elements of a beam whose stiffness and mass are updated each on its own.
 const ELEMENT_GROUPS: usize = 12;
@@ -10,6 +11,10 @@ const ELEMENT_GROUPS: usize = 12;
 const MOST_SPRINGS: usize = 40;
 /// Modes in the band that are updated where neither elements nor springs are known.
 const MOST_MODES: usize = 8;
+/// Most couplings of modes that are updated: with half as many, errors of the elements of larger models were told as masses.
+const MOST_COUPLINGS: usize = 36;
+/// What a coupling adds to a mode at the sensors, beside what the most important one adds, below which it is left out.
+const LITTLE_COUPLING: f64 = 0.02;
 /// Logarithm of a frequency ratio within which a mode counts as in the band of a run.
 const NEAR_BAND: f64 = 0.35;
 /// Deviations that a harmonic must stand out by to tell the damping of a mode, which is known to a tenth.
@@ -59,6 +64,39 @@ pub(crate) fn damped_modes(structure: &Structure, known: &[Source], data: &Data)
     sizes.into_iter().map(Part::ModeDamping).chain(modes.into_iter().map(Part::ModeDampingPerOctave)).collect()
 }
 
+/// Couplings of the modes among `parts` with all modes, by stiffness: where no part of a structure is known by itself, errors of single
+/// elements show in the shapes of its modes as they do in frequencies. A coupling `e` moves mode `r` by
+///
+/// ```text
+/// e omega_r omega_s / (omega_s^2 - omega_r^2) phi_s
+/// ```
+///
+/// Those come first that the sensors see most.
+pub(crate) fn mode_couplings(structure: &Structure, parts: &[Part], data: &Data) -> Vec<Part> {
+    let mode = |part: &Part| if let Part::Mode(mode) = part { Some(*mode) } else { None };
+    let banded: Vec<usize> = parts.iter().filter_map(mode).collect();
+    let (false, Ok(modes)) = (banded.is_empty(), structure.modes()) else { return Vec::new() };
+    let rows: BTreeSet<usize> =
+        data.runs.iter().flat_map(|run| run.responses.iter().map(|channel| channel.dof)).collect();
+    let seen = |r: usize| rows.iter().map(|&row| modes.shapes[(row, r)].powi(2)).sum::<f64>().sqrt();
+    let seen: Vec<f64> = (0..modes.len()).map(seen).collect();
+    let moved = |r: usize, s: usize| {
+        let [of_r, of_s] = [r, s].map(|mode| modes.omega[mode]);
+        (of_r * of_s / (of_s * of_s - of_r * of_r)).abs() * seen[s] / seen[r]
+    };
+    let with_all = |&r: &usize| {
+        let others = (0..modes.len()).filter(|s| *s != r && (*s > r || !banded.contains(s)));
+        let size = |s: usize| if banded.contains(&s) { moved(r, s).max(moved(s, r)) } else { moved(r, s) };
+        others.map(|s| ([r.min(s), r.max(s)], size(s))).collect::<Vec<_>>()
+    };
+    let mut couplings: Vec<([usize; 2], f64)> = banded.iter().flat_map(with_all).collect();
+    couplings.retain(|(_, size)| size.is_finite() && *size > 0.0);
+    couplings.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let least = couplings.first().map_or(0.0, |(_, size)| LITTLE_COUPLING * size);
+    couplings.retain(|(_, size)| *size > least);
+    couplings.into_iter().take(MOST_COUPLINGS).map(|(pair, _)| Part::ModeCoupling(pair)).collect()
+}
+
 /// Circular frequencies (rad/s) of the higher harmonics that a sensor reads well above its noise: the modes that they come near to
 /// answer them by their damping.
 fn clear_harmonics(data: &Data) -> Vec<f64> {
@@ -103,6 +141,30 @@ mod tests {
             damped_modes(&structure, &known, &data).contains(&Part::ModeDamping(1))
         };
         assert!(damped(0.02) && !damped(0.005));
+    }
+
+    /// All pairs but those of two modes out of the band; those that move the only sensor most come first.
+    #[test]
+    fn modes_in_the_band_are_coupled_with_all() {
+        let structure = three_masses([1.0; 3]);
+        let modes = structure.modes().unwrap();
+        let force = channel(Quantity::Force, 2, vec![c64::new(1.0, 0.0)], 1e-3);
+        let motion = channel(Quantity::Displacement, 0, vec![c64::new(1.0, 0.0)], 1e-3);
+        let runs = [run("run".into(), modes.omega[0], vec![force, motion])];
+        let data = Data::new(&Problem { structure: &structure, sources: &[], runs: &runs }).unwrap();
+        let couplings = |banded: &[usize]| {
+            let parts: Vec<Part> = banded.iter().copied().map(Part::Mode).collect();
+            mode_couplings(&structure, &parts, &data)
+        };
+        let moved = |r: usize, s: usize| {
+            let (wr, ws) = (modes.omega[r], modes.omega[s]);
+            wr * ws / (ws * ws - wr * wr) * (modes.shapes[(0, s)] / modes.shapes[(0, r)]).abs()
+        };
+        let mut of_first = [([0, 1], moved(0, 1)), ([0, 2], moved(0, 2))];
+        of_first.sort_by(|a, b| b.1.total_cmp(&a.1));
+        assert_eq!(couplings(&[0]), of_first.map(|(pair, _)| Part::ModeCoupling(pair)));
+        assert_eq!(couplings(&[0, 1]).len(), 3);
+        assert!(couplings(&[]).is_empty());
     }
 
     /// Of imported matrices that are no springs, modes are wrong in stiffness and nodes in mass; a rotation has none of its own.

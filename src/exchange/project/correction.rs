@@ -20,6 +20,7 @@ pub enum Corrected {
     Stiffness,
     Mass,
     Mode,
+    ModeCoupling,
     ModeDamping,
     ModeDampingPerOctave,
     Spring,
@@ -35,6 +36,7 @@ impl Corrected {
         let own = match self {
             Self::Stiffness | Self::Mass => "",
             Self::Mode | Self::ModeDamping | Self::ModeDampingPerOctave => "mode",
+            Self::ModeCoupling => "modes",
             Self::Spring | Self::PointMass => "dofs",
             Self::ElementStiffness | Self::ElementMass => "elements",
             Self::Support => "node",
@@ -61,6 +63,9 @@ pub struct CorrectionTable {
     /// Mode, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mode: Option<i64>,
+    /// Two modes that are coupled, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<[i64; 2]>,
     /// Node of a support.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node: Option<Label>,
@@ -72,12 +77,15 @@ impl CorrectionTable {
     /// The table of a part of `structure`.
     pub fn of(structure: &Structure, part: Part, factor: f64) -> Self {
         let label = |dof: usize| Label(structure.label(dof).to_owned());
-        let plain = |what| Self { what, dofs: Vec::new(), elements: None, mode: None, node: None, factor };
+        let plain = |what| Self { what, dofs: Vec::new(), elements: None, mode: None, modes: None, node: None, factor };
         let elements = |range: [usize; 2]| Some(range.map(|e| e as i64 + 1));
         match part {
             Part::Stiffness => plain(Corrected::Stiffness),
             Part::Mass => plain(Corrected::Mass),
             Part::Mode(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::Mode) },
+            Part::ModeCoupling(pair) => {
+                Self { modes: Some(pair.map(|mode| mode as i64 + 1)), ..plain(Corrected::ModeCoupling) }
+            }
             Part::ModeDamping(mode) => Self { mode: Some(mode as i64 + 1), ..plain(Corrected::ModeDamping) },
             Part::ModeDampingPerOctave(mode) => {
                 Self { mode: Some(mode as i64 + 1), ..plain(Corrected::ModeDampingPerOctave) }
@@ -114,18 +122,24 @@ impl CorrectionTable {
             let value = format!("[{first}, {last}]");
             Err(TableProblem::OutOfRange { key: "elements".into(), value, range: "first to last element of the beam" })
         };
-        let mode = || match self.mode {
-            Some(mode) if mode >= 1 && mode <= structure.len() as i64 => Ok(mode as usize - 1),
-            Some(mode) => {
-                let value = mode.to_string();
-                Err(TableProblem::OutOfRange { key: "mode".into(), value, range: "1 to the number of DOFs" })
+        let number = |key: &str, mode: i64| {
+            let within = mode >= 1 && mode <= structure.len() as i64;
+            let (value, range) = (mode.to_string(), "1 to the number of DOFs");
+            if within { Ok(mode as usize - 1) } else { Err(TableProblem::OutOfRange { key: key.into(), value, range }) }
+        };
+        let mode = || self.mode.ok_or_else(|| missing("mode", "mode = 2")).and_then(|mode| number("mode", mode));
+        let modes = || match self.modes.ok_or_else(|| missing("modes", "modes = [1, 3]"))? {
+            [first, second] if first == second => {
+                let (value, range) = (format!("[{first}, {second}]"), "two different modes");
+                Err(TableProblem::OutOfRange { key: "modes".into(), value, range })
             }
-            None => Err(missing("mode", "mode = 2")),
+            [first, second] => Ok([number("modes", first)?, number("modes", second)?]),
         };
         Ok(match self.what {
             Corrected::Stiffness => Part::Stiffness,
             Corrected::Mass => Part::Mass,
             Corrected::Mode => Part::Mode(mode()?),
+            Corrected::ModeCoupling => Part::ModeCoupling(modes()?),
             Corrected::ModeDamping => Part::ModeDamping(mode()?),
             Corrected::ModeDampingPerOctave => Part::ModeDampingPerOctave(mode()?),
             Corrected::Spring => match &self.dofs[..] {
@@ -166,12 +180,17 @@ pub(super) fn parse(structure: &Table<'_>, lines: &mut Lines) -> Result<Vec<Corr
             return Err(table.error("factor", TableProblem::OutOfRange { key, value, range }));
         }
         let (elements, mode) = (super::keys::elements(&table)?, table.whole("mode")?);
+        let modes = super::keys::modes(&table)?;
         let node = table.label("node")?.map(Label);
         let stated = [("dofs", !dofs.is_empty()), ("elements", elements.is_some()), ("mode", mode.is_some())];
-        for (key, _) in stated.into_iter().chain([("node", node.is_some())]).filter(|(_, is_there)| *is_there) {
+        for (key, _) in stated
+            .into_iter()
+            .chain([("modes", modes.is_some()), ("node", node.is_some())])
+            .filter(|(_, is_there)| *is_there)
+        {
             what.takes(key).map_err(|problem| table.error(key, problem))?;
         }
-        tables.push(CorrectionTable { what, dofs, elements, mode, node, factor });
+        tables.push(CorrectionTable { what, dofs, elements, mode, modes, node, factor });
         lines.note(&table);
     }
     Ok(tables)

@@ -5,13 +5,19 @@ use super::reader::Table;
 
 /// `elements = [first, last]`, from 1.
 pub(super) fn elements(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectError> {
-    let Some(numbers) = table.numbers("elements")? else { return Ok(None) };
+    two_numbers(table, "elements", "[first, last], two whole numbers from 1")
+}
+
+/// Two modes that are coupled.
+pub(super) fn modes(table: &Table<'_>) -> Result<Option<[i64; 2]>, ProjectError> {
+    two_numbers(table, "modes", "two whole numbers from 1")
+}
+
+fn two_numbers(table: &Table<'_>, key: &str, expected: &'static str) -> Result<Option<[i64; 2]>, ProjectError> {
+    let Some(numbers) = table.numbers(key)? else { return Ok(None) };
     match numbers[..] {
         [a, b] if a.fract() == 0.0 && b.fract() == 0.0 => Ok(Some([a as i64, b as i64])),
-        _ => {
-            let (expected, found) = ("[first, last], two whole numbers from 1", "another list");
-            Err(table.error("elements", TableProblem::WrongType { key: "elements".into(), expected, found }))
-        }
+        _ => Err(table.error(key, TableProblem::WrongType { key: key.into(), expected, found: "another list" })),
     }
 }
 

@@ -161,12 +161,27 @@ impl LinearPart {
         result
     }
 
-    /// `-omega_r^2 (M phi_r) (M phi_r)^T x`: the pseudo-force of a mode whose stiffness grows; `None` without such a mode.
-    pub(crate) fn apply_mode(&self, mode: usize, x: &[c64]) -> Option<Vec<c64>> {
-        let square = *self.basis.squares.get(mode)?;
-        let mut result = vec![c64::new(0.0, 0.0); x.len()];
-        add_along(&self.times_mass(self.basis.shape(mode)), c64::new(-square, 0.0), x, &mut result);
-        Some(result)
+    /// `-dK x`: the pseudo-force of two modes that are coupled by stiffness, of one mode (twice the same) whose stiffness grows;
+    /// `None` without such modes.
+    ///
+    /// ```text
+    /// dK = omega_r omega_s ((M phi_r)(M phi_s)^T + (M phi_s)(M phi_r)^T),      of one mode omega_r^2 (M phi_r)(M phi_r)^T
+    /// ```
+    ///
+    /// beside corrections of modes that are there by the modes before them.
+    pub(crate) fn apply_modal_stiffness(&self, pair: [usize; 2], x: &[c64]) -> Option<Vec<c64>> {
+        let [r, s] = pair;
+        let squares = &self.basis.squares;
+        let size = -(squares.get(r)? * squares.get(s)?).sqrt();
+        if let Some(change) = self.structure.modal_stiffness().and_then(|corrected| corrected.change(pair, x)) {
+            return Some(change.into_iter().map(|force| -force).collect());
+        }
+        let [first, second] = pair.map(|mode| self.times_mass(self.basis.shape(mode)));
+        let along = |pattern: &[f64]| pattern.iter().zip(x).map(|(p, x)| *x * *p).sum::<c64>();
+        let (by_first, by_second) = (along(&first), along(&second));
+        let both = if r == s { 0.0 } else { 1.0 };
+        let force = |(p, q): (&f64, &f64)| (by_second * *p + by_first * *q * both) * size;
+        Some(first.iter().zip(&second).map(force).collect())
     }
 
     /// `M x`.

@@ -10,6 +10,7 @@ use crate::diagnosis::residual::prediction::Predictor;
 use crate::diagnosis::result::Suggestion;
 use crate::diagnosis::selection::stated_chain::{hidden, with_stated};
 use crate::diagnosis::updating::noise_model::OWN;
+use crate::diagnosis::updating::parameters::UpdatingParameter;
 use crate::effects::Effect;
 use crate::measurement::Run;
 use crate::response::harmonic_balance::{Excitation, ForwardModel};
