@@ -138,7 +138,8 @@ impl Structure {
         };
         changed.matrices = Some(matrices.clone());
         // Modes are those of the structure with its parts as they are now.
-        let mut corrected = ModalStiffness::new(&matrices, || changed.modes().ok(), factors);
+        let modes_of = || changed.modes().ok().map(|modes| (modes.omega, modes.shapes));
+        let mut corrected = ModalStiffness::new(&matrices, modes_of, factors);
         let added = corrected.as_ref().map(ModalStiffness::stiffness);
         for matrices in [Some(&mut matrices), elastic.as_mut().map(|e| &mut e.rigid)].into_iter().flatten() {
             if let Some(added) = &added {

@@ -11,7 +11,6 @@
 
 use super::matrices::SystemMatrices;
 use super::mode_damping::modal_pattern;
-use super::modes::Modes;
 use super::share::Part;
 use crate::math::eigen::{SymmetricEigen, symmetric};
 use faer::{Mat, c64};
@@ -41,10 +40,11 @@ fn pair(part: Part) -> Option<[usize; 2]> {
 }
 
 impl ModalStiffness {
-    /// Of the modes among `factors` of a structure with these matrices; none where no factor on a mode differs from 1.
+    /// Of the modes among `factors` of a structure with these matrices, whose circular frequencies (rad/s) and mass-normalised shapes are
+    /// `modes_of`; none where no factor on a mode differs from 1.
     pub(super) fn new(
         matrices: &SystemMatrices,
-        own: impl FnOnce() -> Option<Modes>,
+        modes_of: impl FnOnce() -> Option<(Vec<f64>, Mat<f64>)>,
         factors: &[(Part, f64)],
     ) -> Option<Self> {
         let pairs: Vec<([usize; 2], f64)> =
@@ -52,8 +52,8 @@ impl ModalStiffness {
         if pairs.iter().all(|(_, v)| *v == 0.0) {
             return None;
         }
-        let own = own()?;
-        let mut modes: Vec<usize> = pairs.iter().flat_map(|(pair, _)| *pair).filter(|r| *r < own.len()).collect();
+        let (omega, shapes) = modes_of()?;
+        let mut modes: Vec<usize> = pairs.iter().flat_map(|(pair, _)| *pair).filter(|r| *r < omega.len()).collect();
         modes.sort_unstable();
         modes.dedup();
         let place = |mode: usize| modes.iter().position(|own| *own == mode);
@@ -66,9 +66,9 @@ impl ModalStiffness {
             }
         }
         let eigen = symmetric(logarithms.as_ref()).ok()?;
-        let pattern = |&r: &usize| modal_pattern(&matrices.mass, own.shapes.col_as_slice(r));
+        let pattern = |&r: &usize| modal_pattern(&matrices.mass, shapes.col_as_slice(r));
         let columns: Vec<Vec<f64>> = modes.iter().map(pattern).collect();
-        let patterns = Mat::from_fn(matrices.mass.nrows(), modes.len(), |i, a| columns[a][i] * own.omega[modes[a]]);
+        let patterns = Mat::from_fn(matrices.mass.nrows(), modes.len(), |i, a| columns[a][i] * omega[modes[a]]);
         let SymmetricEigen { values, vectors } = eigen;
         let divided = Mat::from_fn(modes.len(), modes.len(), |a, b| divided_difference(values[a], values[b]));
         Some(Self { modes, patterns: patterns * &vectors, values, vectors, divided })
